@@ -4,7 +4,7 @@
 
 use divan::Bencher;
 use divan::counter::ItemsCount;
-use phase::dem::Simulation;
+use phase::dem::DemSimulation;
 use phase::dem::neighbours::{Reach, VerletList};
 use phase::forces::contact::{HertzLaw, NormalLaw};
 use phase::forces::friction::{CoulombLaw, Frictionless, MindlinLaw, Spring, TangentialLaw, Touch};
@@ -124,7 +124,7 @@ fn list(bencher: Bencher<'_, '_>, count: usize, reach: Reach, skin: f64) {
 #[divan::bench]
 fn frame_of_observers(bencher: Bencher<'_, '_>) {
     let scene = scene("sweeps/scenes/theoretical.toml");
-    let mut simulation = Simulation::new(&scene).unwrap();
+    let mut simulation = DemSimulation::new(&scene).unwrap();
     let second = (1.0 / scene.time.dt).round() as u64;
     simulation.advance(second).unwrap();
     let mut observer = Observer::new(&scene, &simulation.particles().radius);

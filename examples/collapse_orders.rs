@@ -5,7 +5,7 @@
 
 #![allow(clippy::print_stdout, reason = "an example speaks for itself")]
 
-use phase::dem::Simulation;
+use phase::dem::DemSimulation;
 use phase::particles::vector::Vector;
 use phase::scene::{DemScene, Integrator, Scene, Start, StartSphere};
 use std::error::Error;
@@ -21,7 +21,7 @@ const REFERENCE: u64 = 51_200;
 
 /// The scene with its random spheres as a list: the same for every step.
 fn from_list(scene: &Scene) -> Result<Scene, Box<dyn Error>> {
-    let simulation = Simulation::new(scene)?;
+    let simulation = DemSimulation::new(scene)?;
     let particles = simulation.particles();
     let triple = |it: Vector| [it.x, it.y, it.z];
     let spheres = particles.position.iter().zip(&particles.velocity);
@@ -42,7 +42,7 @@ fn from_list(scene: &Scene) -> Result<Scene, Box<dyn Error>> {
 fn velocities(scene: &Scene, end: f64, steps: u64) -> Result<Vec<Vector>, Box<dyn Error>> {
     let mut scene = scene.clone();
     scene.time.dt = end / steps as f64;
-    let mut simulation = Simulation::new(&scene)?;
+    let mut simulation = DemSimulation::new(&scene)?;
     simulation.advance(steps)?;
     Ok(simulation.particles().velocity.clone())
 }

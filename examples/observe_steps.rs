@@ -4,7 +4,7 @@
 
 #![allow(clippy::print_stdout, reason = "an example speaks for itself")]
 
-use phase::dem::Simulation;
+use phase::dem::DemSimulation;
 use phase::observe::Observer;
 use phase::scene;
 use std::error::Error;
@@ -19,7 +19,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let file = std::env::args_os().nth(1).map(PathBuf::from);
     let scene = scene::Scene::load(&file.unwrap_or("sweeps/scenes/theoretical.toml".into()))?;
 
-    let mut simulation = Simulation::new(&scene)?;
+    let mut simulation = DemSimulation::new(&scene)?;
     let mut observer = Observer::new(&scene, &simulation.particles().radius);
 
     // A second of time, looked at ten times. A broken guard ends it with an error that says which

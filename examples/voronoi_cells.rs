@@ -9,7 +9,7 @@
     reason = "an example speaks for itself"
 )]
 
-use phase::measure::{Centres, Walls, voronoi_cells};
+use phase::measure::{CellBounds, Centres, voronoi_cells};
 use phase::store::read_record;
 use std::error::Error;
 use std::fmt::Write;
@@ -30,7 +30,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let centres = Centres::of(state);
     let heights = centres.place.iter().map(|place| place.z);
     let top = heights.fold(f64::NEG_INFINITY, f64::max) + record.scene.spheres.radius.mean();
-    let walls = Walls {
+    let walls = CellBounds {
         low: [-x, -y, floor],
         high: [x, y, top],
         farthest: f64::MAX,

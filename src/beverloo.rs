@@ -4,11 +4,11 @@
 //! has p = 5/2: Beverloo, Leniger and van de Velde, Chemical Engineering Science 15, 260 (1961). A
 //! slit, and a silo in two dimensions, have p = 3/2: Franklin and Johanson, Chemical Engineering
 //! Progress 51, 119 (1955); Mankoc et al., Granular Matter 9, 407 (2007). n is the number of grains
-//! per volume of the bed, or per area of the bed in the plane of the flow, d their diameter.
+//! per volume of the bed, or per area of the bed in the plane of the flow; d is their diameter.
 
 use crate::statistics::{CONFIDENCE, Estimate, student_t};
 
-/// What grains leave through.
+/// The opening through which grains leave.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Opening {
     /// A gap of width D in a plane, or a slit as long as the bed is deep.
@@ -43,7 +43,7 @@ impl Opening {
     }
 }
 
-/// What the law needs to know of a bed of grains.
+/// Properties of a bed of grains in the law.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bed {
     /// Acceleration g (m/s2).
@@ -53,13 +53,13 @@ pub struct Bed {
     pub number_density: f64,
     /// Mean diameter d of the grains (m).
     pub diameter: f64,
-    /// What they leave through.
+    /// The opening.
     pub opening: Opening,
 }
 
 impl Bed {
-    /// Grains per second through an opening of that width (m): C sqrt(g) n (D - k d)^p, none where
-    /// D < k d.
+    /// Grains per second through an opening of this width (m): C sqrt(g) n (D - k d)^p, zero if D <
+    /// k d.
     pub fn discharge_rate(&self, width: f64, [c, k]: [f64; 2]) -> f64 {
         c * self.rate_unit() * self.opening.power(self.free(width, k))
     }
@@ -90,8 +90,8 @@ pub struct Fit {
     pub c: Estimate,
     /// The constant k.
     pub k: Estimate,
-    /// Root mean square of the residuals (grains per second), over two less than the number of
-    /// discharges.
+    /// Root mean square of the residuals (grains per second), with two degrees of freedom fewer
+    /// than discharges.
     pub residual: f64,
     /// Number of discharges.
     pub discharges: usize,
@@ -100,11 +100,11 @@ pub struct Fit {
 /// Why the law cannot be fitted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum FitError {
-    /// Two constants and their scatter need more.
+    /// There are too few discharges for two constants and their scatter.
     #[error("the fit needs three discharges or more, of two openings or more")]
     TooFew,
-    /// The rates are not those of any such law.
-    #[error("the rates do not grow with the opening as the law has it")]
+    /// The rates do not follow any such law.
+    #[error("the rates do not grow with the opening as the law requires")]
     NoLaw,
 }
 
@@ -115,11 +115,11 @@ const MOST_STEPS: usize = 200;
 const PROGRESS: f64 = 1e-13;
 
 /// Fits C and k to discharges from one bed by least squares of the rates (Gauss-Newton, steps
-/// halved while they do not pay).
+/// halved until they improve the fit).
 ///
-/// The intervals are those of the linearised fit: plus and minus t s sqrt(V_ii), with Student's t
-/// of 95 % and two less than the number of discharges, the residual s, and V the inverse of J^T J.
-/// They take the scatter for the same at all openings, and the bed for known exactly.
+/// The intervals follow from the linearised fit: plus and minus t s sqrt(V_ii), with Student's t
+/// for 95 % and n - 2 degrees of freedom for n discharges, the residual s, and V the inverse of J^T
+/// J. They assume equal scatter at all openings and an exactly known bed.
 ///
 /// # Errors
 /// If there are too few discharges, or they do not follow the law.
@@ -196,7 +196,7 @@ fn straightened(discharges: &[Discharge], bed: &Bed) -> Option<[f64; 2]> {
         .iter()
         .map(|it| it.width)
         .fold(f64::INFINITY, f64::min);
-    // Every opening must let something through, or it would not count.
+    // Every opening must have a positive rate to count.
     let foot = foot.min(narrowest - 1e-3 * bed.diameter);
     let c = libm::pow(slope, exponent) / bed.rate_unit();
     (slope > 0.0).then_some([c, foot / bed.diameter])

@@ -7,17 +7,18 @@
 //! | step | module |
 //! |---|---|
 //! | a [`Scene`](scene::Scene), from a file or built in code | [`scene`] |
-//! | a [`Simulation`](dem::Simulation), advanced step by step | [`dem`] |
+//! | a [`DemSimulation`](dem::DemSimulation), advanced step by step | [`dem`], [`spot`] |
+//! | what all models can do: the traits `Model` and `Simulation` | [`simulation`] |
 //! | what is measured at every frame | [`observe`] |
-//! | all of that in one call: a [`RunRecord`](record::RunRecord) | [`run`](mod@run) |
-//! | a run that is interrupted and goes on from its checkpoint | [`resume`] |
+//! | all of that in one call: a [`RunRecord`](record::RunRecord) | [`run`](mod@run), [`record`] |
+//! | a run that is interrupted and continues from its checkpoint | [`resume`] |
 //! | the label of a record | [`classify`](mod@classify) |
-//! | many scenes at once, their labels, and figures of them | [`sweep`], [`plot`] |
-//! | where an integrator is stable: a phase diagram of the numerics | [`study`] |
-//! | what a run costs, and each of its parts | [`cost`] |
-//! | records and tables as files | [`store`] |
+//! | many scenes at once, their labels, and figures | [`sweep`], [`plot`] |
 //! | which runs a phase diagram needs | [`refine`] |
-//! | laws that results are compared with | [`theory`], [`beverloo`] |
+//! | records and tables as files | [`store`] |
+//!
+//! Other modules serve the program and its tests. They are hidden here, and may change with any
+//! version.
 //!
 //! SI units throughout, angles in radians, z up. The same scene gives the same bits on every
 //! machine.
@@ -82,35 +83,50 @@
 //!
 //! The folder `examples/` has more: a scene built in code, and a simulation watched step by step.
 
+#[doc(hidden)]
 pub mod beverloo;
 pub mod classify;
 mod color;
+#[doc(hidden)]
 pub mod compare;
+#[doc(hidden)]
 pub mod cost;
 mod cpu_time;
 pub mod dem;
+#[doc(hidden)]
 pub mod document;
 mod fonts;
+#[doc(hidden)]
 pub mod forces;
 mod markup;
+#[doc(hidden)]
 pub mod measure;
 pub mod observe;
+#[doc(hidden)]
 pub mod particles;
 pub mod plot;
 pub mod record;
+#[doc(hidden)]
 pub mod reference;
 pub mod refine;
+#[doc(hidden)]
 pub mod render;
+#[doc(hidden)]
 pub mod replay;
 pub mod resume;
 pub mod run;
 pub mod scene;
 pub mod simulation;
 pub mod spot;
+#[doc(hidden)]
 pub mod start;
+#[doc(hidden)]
 pub mod statistics;
 pub mod store;
+#[doc(hidden)]
 pub mod study;
 pub mod sweep;
+#[doc(hidden)]
 pub mod theory;
+#[doc(hidden)]
 pub mod verify;

@@ -1,8 +1,8 @@
-//! A run as far as the thesis's dump tells it: observables from positions and energies alone.
+//! A run from the thesis's dump: observables from positions and energies only.
 
 mod states;
 
-pub use states::{Moment, StatesError, WrittenState, replay_states};
+pub use states::{StateTime, StatesError, WrittenState, replay_states};
 
 use crate::observe::{FrameView, Observer};
 use crate::record::{Guard, Instability, Outcome, Program, RunRecord};
@@ -12,9 +12,9 @@ use ndarray::{Array3, ArrayView2, Axis};
 /// Why a dump cannot be a run of a scene.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ReplayError {
-    /// Nothing says which sphere has which radius.
+    /// The radius of each sphere is unknown.
     #[error(
-        "the scene does not say the radius of each of the {0} spheres of the dump; give \
+        "the scene does not give the radius of each of the {0} spheres of the dump; give \
          spheres.radius as one number, or as a file with one radius per sphere"
     )]
     Radii(usize),
@@ -46,17 +46,17 @@ pub enum ReplayError {
 /// The record of a run of `scene` with these positions and energies: frames x n x 4 of x, y, z (m)
 /// and the translational, rotational and gravitational energy (J) of every sphere.
 ///
-/// What depends on positions alone is what the run itself would have observed: heights, profile,
-/// hole, rising spheres, gravitational energy. The rest is what a dump allows:
+/// Observables that depend only on positions are those of the original run: heights, profile, hole,
+/// rising spheres, gravitational energy. For the others:
 ///
-/// * `kinetic` holds the translational and the rotational energy, which a dump does not keep
-///   apart, and `rotational` is zero; their sum, which the sieves read, is right.
+/// * `kinetic` holds the translational and the rotational energy, which a dump does not separate,
+///   and `rotational` is zero; their sum, which the sieves read, is right.
 /// * Velocities are displacements from the frame before (at the first, to the next) over the
 ///   frame interval: `speed_mean`, `rotation` and `fluctuation` are means over that time.
 /// * `elastic` is not a number. There are no spins, no snapshots and no trajectory.
 ///
-/// A dump whose last frame has all coordinates at 1 (or all at 0), or that holds something other
-/// than finite numbers, is of a run that broke off: unstable.
+/// A dump whose last frame has all coordinates at 1 (or all at 0), or that holds numbers that are
+/// not finite, belongs to a run that broke off: unstable.
 ///
 /// # Errors
 /// If the dump cannot be a run of this scene.
@@ -199,8 +199,8 @@ fn displacements(
     })
 }
 
-/// Translational and rotational energy of all spheres (J): what is left of a dump's energies
-/// without the gravitational one.
+/// Translational and rotational energy of all spheres (J): a dump's energies minus the
+/// gravitational one.
 fn moving_energy(spheres: &ArrayView2<'_, f64>, mass: &[f64], scene: &Scene) -> f64 {
     let gravity = scene.gravity_in_fluid();
     let rows = spheres.rows().into_iter().zip(mass);

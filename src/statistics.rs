@@ -15,12 +15,12 @@ pub const CONFIDENCE: f64 = 0.95;
 pub struct Estimate {
     /// The value.
     pub value: f64,
-    /// Half the width of its interval; infinite if nothing tells the scatter.
+    /// Half the width of its interval; infinite if the scatter is unknown.
     pub half_width: f64,
 }
 
 impl Estimate {
-    /// Mean of independent values with the interval of Student's t; none without values.
+    /// Mean of independent values with the interval of Student's t; `None` without values.
     ///
     /// ```
     /// use phase::statistics::Estimate;
@@ -44,7 +44,7 @@ impl Estimate {
     }
 }
 
-/// Ends of the interval of [`CONFIDENCE`] for a share found in that many independent trials:
+/// Ends of the interval of [`CONFIDENCE`] for a share found in this number of independent trials:
 /// Wilson's score interval (E. B. Wilson, J. Am. Stat. Assoc. 22, 209 (1927)). It stays between 0
 /// and 1.
 ///
@@ -63,9 +63,9 @@ pub fn share_interval(share: f64, trials: usize) -> [f64; 2] {
     [(centre - half).max(0.0), (centre + half).min(1.0)]
 }
 
-/// Ends of the interval of [`CONFIDENCE`] for the mean of independent shares; none without any.
-/// That of Student's t, cut off at 0 and 1; where all are 0 or 1, and may not have scattered by
-/// chance, that of Wilson ([`share_interval`]).
+/// Ends of the interval of [`CONFIDENCE`] for the mean of independent shares; `None` without
+/// shares. Student's t, cut off at 0 and 1; if all shares are 0 or all are 1, so that their scatter
+/// says nothing, Wilson's interval ([`share_interval`]).
 ///
 /// ```
 /// use phase::statistics::mean_share_interval;

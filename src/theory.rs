@@ -1,4 +1,4 @@
-//! Closed forms that the simulations are compared with.
+//! Closed forms for comparison with simulations.
 
 mod with_friction;
 
@@ -7,8 +7,8 @@ pub use with_friction::critical_rotation_with_friction;
 use crate::scene::{Drag, Swirl, Updraught};
 use std::f64::consts::{PI, SQRT_2};
 
-/// Critical angular velocity Omega_c (rad/s) at which the surface of the spheres, taken for that
-/// of a rotating fluid, touches the floor on the axis: Rice (2012), eq. 43,
+/// Critical angular velocity Omega_c (rad/s) at which the surface of the spheres, treated as a
+/// rotating fluid, touches the floor on the axis: Rice (2012), eq. 43,
 ///
 /// Omega_c = (4 / R^2) sqrt(sqrt(2) / pi n r^3 g).
 ///
@@ -29,12 +29,11 @@ pub fn critical_rotation(count: f64, radius: f64, tank_radius: f64, gravity: f64
         * (SQRT_2 / PI * count * radius * radius * radius * gravity).sqrt()
 }
 
-/// Force of the updraught (N) on a resting sphere that none shields: Rice (2012), eq. 24 with n =
-/// 0,
+/// Force of the updraught (N) on an unshielded sphere at rest: Rice (2012), eq. 24 with n = 0,
 ///
 /// F_z = s exp(-beta (z - z0)) drag(v_z), with drag(v) = c1 v + c2 v^2 in the thesis.
 ///
-/// * `swirl`: the rotation of the air, which a strength s proportional to Omega^2 follows
+/// * `swirl`: the rotation of the air, for a strength s proportional to Omega^2
 /// * `drag`: the drag law
 /// * `radius`: radius of the sphere (m)
 /// * `height`: height z of its centre (m)

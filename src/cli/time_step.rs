@@ -1,14 +1,14 @@
 //! Time steps over their limits, as commands print them.
 
 use super::console::Console;
-use phase::dem::timestep::{self, Limit, Standing};
+use phase::dem::timestep::{self, Limit, StepMargin};
 use phase::scene::Scene;
 use phase::sweep::{Axis, Job, Sweep, describe};
 use std::collections::BTreeSet;
 
 /// A limit of the time step, and the job that comes closest to it.
 pub(super) struct Tightest<'a> {
-    pub(super) standing: Standing,
+    pub(super) standing: StepMargin,
     pub(super) job: &'a Job,
 }
 
@@ -17,7 +17,7 @@ pub(super) struct Tightest<'a> {
 pub(super) fn tightest_limits(jobs: &[Job]) -> Vec<Tightest<'_>> {
     let mut tightest: Vec<Tightest<'_>> = Vec::new();
     for job in jobs {
-        for standing in Standing::all(&job.scene) {
+        for standing in StepMargin::all(&job.scene) {
             let next = Tightest { standing, job };
             match tightest
                 .iter_mut()
@@ -43,7 +43,7 @@ pub(super) fn tell_of_scene(scene: &Scene, console: &Console) {
     if scene.spot.is_some() {
         return;
     }
-    let standings = Standing::all(scene);
+    let standings = StepMargin::all(scene);
     let decisive = standings.first().filter(|it| it.limit.decisive);
     console.note(describe_step(scene, decisive, ""));
     note_coarse(standings.iter(), console);
@@ -66,9 +66,9 @@ pub(super) fn tell_of_jobs(jobs: &[Job], axes: &[Axis], console: &Console) {
 }
 
 /// Prints in one line the limits to which the step is too close, if there are any.
-fn note_coarse<'a>(standings: impl Iterator<Item = &'a Standing>, console: &Console) {
+fn note_coarse<'a>(standings: impl Iterator<Item = &'a StepMargin>, console: &Console) {
     let coarse = standings.filter(|standing| standing.consequence().is_some());
-    let coarse = coarse.map(|Standing { limit, ratio }| {
+    let coarse = coarse.map(|StepMargin { limit, ratio }| {
         let kind = kind_of(limit);
         format!("{ratio:.2} of the {kind} ({})", limit.name)
     });
@@ -96,11 +96,11 @@ fn point(tightest: &Tightest<'_>, axes: &[Axis]) -> String {
     describe(axes, &tightest.job.values, tightest.job.seed)
 }
 
-fn describe_step(scene: &Scene, decisive: Option<&Standing>, at: &str) -> String {
+fn describe_step(scene: &Scene, decisive: Option<&StepMargin>, at: &str) -> String {
     let dt = scene.time.dt;
     let mut text = format!("time step {dt:e} s{at}: ");
     match decisive {
-        Some(Standing { limit, ratio }) => {
+        Some(StepMargin { limit, ratio }) => {
             text += &format!(
                 "{ratio:.3} of the {} limit of {:.3e} s",
                 limit.name, limit.seconds
@@ -119,11 +119,11 @@ fn describe_step(scene: &Scene, decisive: Option<&Standing>, at: &str) -> String
     text
 }
 
-fn warn(standing: &Standing, at: &str, console: &Console) {
+fn warn(standing: &StepMargin, at: &str, console: &Console) {
     let Some(consequence) = standing.consequence() else {
         return;
     };
-    let Standing { limit, ratio } = standing;
+    let StepMargin { limit, ratio } = standing;
     let kind = kind_of(limit);
     console.warning(format_args!(
         "the time step is {ratio:.2} times the {kind} of {:.2e} s ({}){at}: {consequence}",

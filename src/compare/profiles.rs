@@ -1,7 +1,7 @@
 //! Profiles of the downward velocity of a drainage.
 
 use super::Drainage;
-use crate::measure::{Axis, FlowSpread, VelocityProfile, flow_spread};
+use crate::measure::{FlowSpread, SpaceAxis, VelocityProfile, flow_spread};
 
 /// Heights of the layers that figures show, as shares of the height at the start: 20, 30 and 60
 /// diameters in the box of Rycroft, Wong and Bazant (2010).
@@ -22,7 +22,7 @@ pub fn profile_at(drainage: &Drainage<'_>, share: f64) -> VelocityProfile {
     let half = 0.5 * THICKNESS * filled_box.diameter / filled_box.filled;
     let region = filled_box.part(1.0, [share - half, share + half]);
     let bins = (2.0 * filled_box.half_width / filled_box.diameter).round();
-    let profile = VelocityProfile::new(Axis::X, region, bins.max(2.0) as usize);
+    let profile = VelocityProfile::new(SpaceAxis::X, region, bins.max(2.0) as usize);
     filled(profile, drainage)
 }
 
@@ -33,7 +33,7 @@ pub fn cross_profile(drainage: &Drainage<'_>) -> VelocityProfile {
     let region = filled_box.part(CROSS.0, CROSS.1);
     // An odd number: of an even one sides of bins lie where spheres touch the walls, half a
     // diameter from them, and those at one wall alone would share a bin with what is inside.
-    let profile = VelocityProfile::new(Axis::Y, region, bins.max(1.0) as usize | 1);
+    let profile = VelocityProfile::new(SpaceAxis::Y, region, bins.max(1.0) as usize | 1);
     filled(profile, drainage)
 }
 

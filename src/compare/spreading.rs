@@ -1,7 +1,7 @@
 //! How far spheres stray from the mean flow.
 
 use super::Drainage;
-use crate::measure::{Axis, Diffusion, VelocityCorrelation};
+use crate::measure::{Diffusion, SpaceAxis, VelocityCorrelation};
 use crate::statistics::Estimate;
 
 /// How far spheres stray from the mean flow while they drop.
@@ -38,11 +38,17 @@ pub fn spreading(drainage: &Drainage<'_>) -> Spreading {
         }
         let mean_square = |axis| diffusion.mean_square(axis).map(|it| it.value);
         let drop = diffusion.drop().map(|it| it.value);
-        if let (Some(drop), Some(x), Some(z)) = (drop, mean_square(Axis::X), mean_square(Axis::Z)) {
+        if let (Some(drop), Some(x), Some(z)) =
+            (drop, mean_square(SpaceAxis::X), mean_square(SpaceAxis::Z))
+        {
             spreading.points.push([drop, x, z]);
         }
         let peclet = |axis| diffusion.peclet(axis, diameter);
-        if let (true, Some(x), Some(z)) = (count >= FEWEST[1], peclet(Axis::X), peclet(Axis::Z)) {
+        if let (true, Some(x), Some(z)) = (
+            count >= FEWEST[1],
+            peclet(SpaceAxis::X),
+            peclet(SpaceAxis::Z),
+        ) {
             spreading.peclet = Some([x, z]);
         }
     }

@@ -26,12 +26,12 @@ pub enum WallFailure {
 }
 
 impl WeakestWall {
-    /// The weakest place of the walls of discs of a scene, its door included. None without any, or
-    /// without a contact law.
+    /// The weakest place in a scene's walls of fixed discs, its door included. `None` without such
+    /// walls or without a contact law.
     ///
     /// At the place where a wall fails, the disc overlaps fixed discs. Its kinetic energy must
-    /// equal the elastic energy of these contacts. Damping would require a little more, and discs
-    /// that push from behind less. Both are left out.
+    /// equal the elastic energy of these contacts. Damping would raise this speed a little, and
+    /// discs pushing from behind would lower it. Both are left out.
     pub fn of_scene(scene: &Scene) -> Option<Self> {
         let elastic_energy = scene.dem.contact.as_ref()?.elastic_energy();
         let fixed = scene.dem.geometry.as_ref().map(Geometry::spheres)?;
@@ -78,7 +78,7 @@ fn gap([one, other]: [FixedSphere; 2]) -> [f64; 3] {
 }
 
 /// The place (m) at which a disc that moves straight at the wall overlaps the first fixed disc as
-/// far as the overlap guard allows. None if the place is beyond that disc's centre, as the guard is
+/// far as the overlap guard allows. `None` if the place is beyond that disc's centre: the guard is
 /// then never broken.
 fn deepest(scene: &Scene, radius: f64, [one, other]: [FixedSphere; 2]) -> Option<[f64; 3]> {
     let overlap = scene.dem.guards.overlap * radius.min(one.radius);
@@ -95,8 +95,8 @@ fn deepest(scene: &Scene, radius: f64, [one, other]: [FixedSphere; 2]) -> Option
     (above > 0.0).then(|| [x + above * normal[0], y, z + above * normal[1]])
 }
 
-/// The elastic energy (J) of the contacts of a disc with all `fixed` discs, at a place:
-/// `of_contact` of each, by its overlap and effective radius.
+/// The elastic energy (J) of the contacts of a disc with all `fixed` discs, at a place.
+/// `of_contact` is the energy of one contact, from its overlap and effective radius.
 fn energy_at(
     of_contact: &dyn Fn(f64, f64) -> f64,
     radius: f64,

@@ -4,20 +4,20 @@
 //! | type | what it holds |
 //! |---|---|
 //! | [`Particles`] | all spheres, one array per quantity |
-//! | [`Spheres`] | borrowed parts of these arrays: all spheres, or those of a thread |
+//! | [`SphereRows`] | borrowed parts of these arrays: all spheres, or the share of a thread |
 //! | [`Bodies`] | copies of a block of [`BLOCK`] spheres, one column per coordinate, for effects |
 
 use super::neighbours::Reference;
 use super::threads::{split, split_shared};
 use crate::particles::Particles;
-use crate::particles::block::{BLOCK, Columns, ROWS, row};
+use crate::particles::block::{BLOCK, ROWS, VectorColumns, row};
 use crate::particles::bodies::{Asked, Bodies};
 use crate::particles::vector::Vector;
 use fearless_simd::Simd;
 use std::ops::Range;
 
-/// Spheres in rows: all of them, those of a thread, or the next few.
-pub(super) struct Spheres<'a> {
+/// Spheres in rows: all of them, the share of a thread, or the next few.
+pub(super) struct SphereRows<'a> {
     /// Index of the first one.
     pub(super) first: usize,
     pub(super) position: &'a mut [Vector],
@@ -34,7 +34,7 @@ pub(super) struct Spheres<'a> {
     pub(super) reference: &'a [Reference],
 }
 
-impl<'a> Spheres<'a> {
+impl<'a> SphereRows<'a> {
     /// All spheres, with their references.
     pub(super) fn new(particles: &'a mut Particles, reference: &'a [Reference]) -> Self {
         Self {
@@ -59,8 +59,8 @@ impl<'a> Spheres<'a> {
     }
 
     /// The spheres of a range, counted from the first of these spheres.
-    pub(super) fn part(&mut self, range: Range<usize>) -> Spheres<'_> {
-        let mut all = Spheres {
+    pub(super) fn part(&mut self, range: Range<usize>) -> SphereRows<'_> {
+        let mut all = SphereRows {
             first: self.first,
             position: self.position,
             velocity: self.velocity,
@@ -78,7 +78,7 @@ impl<'a> Spheres<'a> {
         all.split(range.len())
     }
 
-    /// Splits off this number of spheres at the front, or all if there are fewer.
+    /// Splits off `count` spheres at the front, or all if there are fewer.
     pub(super) fn split(&mut self, count: usize) -> Self {
         let first = self.first;
         self.first += count.min(self.len());
@@ -105,7 +105,7 @@ impl Bodies {
     pub(super) fn take<S: Simd>(
         &mut self,
         simd: S,
-        spheres: &Spheres<'_>,
+        spheres: &SphereRows<'_>,
         from: usize,
         asked: Asked,
     ) {
@@ -133,7 +133,7 @@ impl Bodies {
     pub(super) fn give<S: Simd>(
         &self,
         simd: S,
-        spheres: &mut Spheres<'_>,
+        spheres: &mut SphereRows<'_>,
         from: usize,
         asked: Asked,
     ) {
@@ -146,7 +146,7 @@ impl Bodies {
 }
 
 #[inline(always)]
-fn fill<S: Simd>(simd: S, columns: &mut Columns, vectors: &[Vector]) {
+fn fill<S: Simd>(simd: S, columns: &mut VectorColumns, vectors: &[Vector]) {
     if vectors.len() == BLOCK {
         columns.fill::<S>(
             #[inline(always)]
@@ -162,7 +162,7 @@ fn fill<S: Simd>(simd: S, columns: &mut Columns, vectors: &[Vector]) {
 }
 
 #[inline(always)]
-fn spread<S: Simd>(simd: S, columns: &Columns, vectors: &mut [Vector]) {
+fn spread<S: Simd>(simd: S, columns: &VectorColumns, vectors: &mut [Vector]) {
     let mut eights = vectors.chunks_exact_mut(ROWS);
     let mut at = 0;
     for eight in &mut eights {

@@ -1,6 +1,6 @@
 //! The present state, as observers see it.
 
-use super::Simulation;
+use super::DemSimulation;
 use super::order;
 use crate::particles::Particles;
 use crate::particles::vector::Vector;
@@ -13,13 +13,13 @@ const _: () = assert!(SOME.is_multiple_of(FRAME_BLOCK));
 
 /// The values of a frame that do not belong to single spheres.
 #[derive(Clone, Copy)]
-struct About {
+struct FrameTotals {
     elastic_energy: f64,
     ledger: Option<Ledger>,
     flow: Option<Flow>,
 }
 
-impl Simulation {
+impl DemSimulation {
     /// Everything an observer may see now.
     pub fn frame(&mut self) -> FrameView<'_> {
         let about = self.about();
@@ -55,7 +55,7 @@ impl Simulation {
         FrameView {
             position,
             velocity,
-            // Also where all spheres have left.
+            // Also when all spheres have left.
             spin: (particles.rotate() || !self.inertia.is_empty()).then_some(spin),
             radius,
             mass,
@@ -78,9 +78,9 @@ impl Simulation {
         }
     }
 
-    fn about(&mut self) -> About {
+    fn about(&mut self) -> FrameTotals {
         let contacts = self.engine.contacts();
-        About {
+        FrameTotals {
             elastic_energy: contacts.elastic_energy,
             ledger: self.engine.work().map(|work| Ledger {
                 springs: contacts.spring_energy,
@@ -104,7 +104,7 @@ impl Simulation {
         self.process.is_none() && !self.particles().number.is_empty()
     }
 
-    fn sorted_frame(&self, about: About) -> SortedFrame<'_> {
+    fn sorted_frame(&self, about: FrameTotals) -> SortedFrame<'_> {
         let particles = self.particles();
         SortedFrame {
             places: order::places(&particles.number[particles.fixed..]),
@@ -132,7 +132,7 @@ struct SortedFrame<'a> {
     places: Vec<u32>,
     /// In the order of the scene.
     scalars: [&'a [f64]; 3],
-    about: About,
+    about: FrameTotals,
 }
 
 impl Frame for SortedFrame<'_> {
@@ -142,7 +142,7 @@ impl Frame for SortedFrame<'_> {
 
     fn show(&self, look: &mut dyn FnMut(&FrameView<'_>)) {
         let mut columns = vec![[0.0; SOME]; 9];
-        let About {
+        let FrameTotals {
             elastic_energy,
             ledger,
             flow,

@@ -131,8 +131,7 @@ impl Limits {
         })
     }
 
-    /// The first sphere that exceeds its speed limit, of those with these velocities and radii.
-    /// Their indices begin at `first`.
+    /// The first of these spheres that exceeds its speed limit. Indices begin at `first`.
     pub(super) fn first_too_fast(
         &self,
         first: usize,

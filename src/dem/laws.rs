@@ -1,7 +1,7 @@
 //! The engine compiled for a scene's laws of contact and friction.
 
-use super::simulation::BuildError;
-use super::system::{Engine, Setup, System};
+use super::simulation::DemBuildError;
+use super::system::{Engine, System, SystemSetup};
 use crate::forces::contact::{Contact, ContactKeys, NoContact, NormalLaw, with_keys};
 use crate::forces::friction::{
     Friction, FrictionKeys, Frictionless, TangentialLaw, with_pairs_of_laws,
@@ -9,14 +9,14 @@ use crate::forces::friction::{
 use crate::particles::Particles;
 use crate::scene::Scene;
 
-/// The engine compiled for the scene's contact and friction. Each pair of laws costs time to
-/// compile, so only those are here that go together.
+/// The engine compiled for the scene's contact and friction. Each pair of laws costs compile time,
+/// so only pairs that go together are here.
 pub(super) fn engine(
     scene: &Scene,
-    setup: Setup,
+    setup: SystemSetup,
     particles: Particles,
-) -> Result<Box<dyn Engine>, BuildError> {
-    type Spheres = (Setup, Particles);
+) -> Result<Box<dyn Engine>, DemBuildError> {
+    type Spheres = (SystemSetup, Particles);
     fn boxed<N: NormalLaw, T: TangentialLaw>(
         normal: N,
         tangential: [T; 2],
@@ -27,7 +27,7 @@ pub(super) fn engine(
     let friction = scene.dem.friction.as_ref();
     let slides = friction.is_some_and(|it| !matches!(it, Friction::Spin(_)));
     if scene.dem.rolling.is_some() && !slides {
-        return Err(BuildError::RollingWithoutFriction);
+        return Err(DemBuildError::RollingWithoutFriction);
     }
     let dt = scene.time.dt;
     let spheres = (setup, particles);
@@ -38,7 +38,7 @@ pub(super) fn engine(
         ($(($contact:ident, $friction:ident),)+) => {
             match (&scene.dem.contact, &scene.dem.friction) {
                 (None, None) => Ok(boxed(NoContact, [Frictionless; 2], spheres)),
-                (None, Some(_)) => Err(BuildError::FrictionWithoutContact),
+                (None, Some(_)) => Err(DemBuildError::FrictionWithoutContact),
                 (Some(contact), None) => Ok(with_keys!(contact, contact => {
                     boxed(contact.law(radius, mass), [Frictionless; 2], spheres)
                 })),
@@ -50,7 +50,7 @@ pub(super) fn engine(
                     let frictions = [friction, at_walls].map(|it| it.law(contact, dt));
                     Ok(boxed(contact.law(radius, mass), frictions, spheres))
                 })+
-                (Some(_), Some(_)) => Err(BuildError::LawsDoNotGoTogether),
+                (Some(_), Some(_)) => Err(DemBuildError::LawsDoNotGoTogether),
             }
         };
     }
@@ -60,7 +60,7 @@ pub(super) fn engine(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dem::Simulation;
+    use crate::dem::DemSimulation;
     use serde_json::json;
 
     #[test]
@@ -95,7 +95,7 @@ mod tests {
                 let allowed =
                     allowed.is_some_and(|(friction, contact)| friction.goes_with(contact));
                 together += usize::from(allowed);
-                let built = Simulation::new(&scene);
+                let built = DemSimulation::new(&scene);
                 assert_eq!(built.is_ok(), allowed, "{contact} {friction}");
             }
         }

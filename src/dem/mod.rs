@@ -1,6 +1,6 @@
 //! The discrete element engine.
 //!
-//! The effects of a [`Scene`](crate::scene::Scene) are fixed when its [`Simulation`] is built: the
+//! The effects of a [`Scene`](crate::scene::Scene) are fixed when its [`DemSimulation`] is built: the
 //! inner loops are compiled for the laws in use, and what the scene does not name allocates and
 //! computes nothing.
 //!
@@ -31,8 +31,8 @@ mod work;
 pub use barrier::{WallFailure, WeakestWall};
 pub(crate) use check::SAFETY_FACTOR;
 pub use model::Dem;
-pub use overlap::{Overlap, Partner, Release};
-pub use profile::Part;
+pub use overlap::{Overlap, OverlapPartner, Release};
+pub use profile::StepPart;
 pub use simplifications::{Simplification, simplifications};
-pub use simulation::{BuildError, Simulation};
+pub use simulation::{DemBuildError, DemSimulation};
 pub use state::SimulationState;

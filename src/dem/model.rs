@@ -1,13 +1,14 @@
 //! The discrete element method as a model of the program.
 
-use super::Simulation;
+use super::DemSimulation;
 use super::profile;
 use super::simplifications::simplifications;
 use super::work::sphere_steps;
 use crate::forces::simplification::Simplification;
 use crate::scene::Scene;
 use crate::simulation::{
-    BuildError, Counts, Frame, Instability, Milestone, Model, PartOfStep, Profile, StateError,
+    BuildError, Counts, Frame, Instability, Milestone, Model, PartOfStep, Profile, Simulation,
+    StateError,
 };
 use rayon::ThreadPoolBuildError;
 use std::io;
@@ -33,13 +34,13 @@ impl Model for Dem {
         simplifications(scene)
     }
 
-    fn build(&self, scene: &Scene) -> Result<Box<dyn crate::simulation::Simulation>, BuildError> {
-        let simulation = Simulation::new(scene).map_err(BuildError::new)?;
+    fn build(&self, scene: &Scene) -> Result<Box<dyn Simulation>, BuildError> {
+        let simulation = DemSimulation::new(scene).map_err(BuildError::new)?;
         Ok(Box::new(simulation))
     }
 }
 
-impl crate::simulation::Simulation for Simulation {
+impl Simulation for DemSimulation {
     fn advance_frame(&mut self) -> Result<(), Instability> {
         self.advance(self.steps_per_frame)
     }

@@ -2,8 +2,8 @@
 //!
 //! A pair reads its partners from memory. If spheres are in the random order of their scene,
 //! partners may be anywhere in memory. A bed of 55,000 spheres then takes three times as long per
-//! sphere as one of 256, which fits into the caches. So spheres of large scenes are sorted by cells
-//! as wide as the largest sphere, and sorted again when they have mixed.
+//! sphere as a bed of 256, which fits into the caches. So spheres of large scenes are sorted by
+//! cells as wide as the largest sphere, and sorted again when they have mixed.
 //!
 //! Forces are summed in the order of indices. So this order must follow from the motion alone: it
 //! is checked after fixed numbers of steps, and is part of a checkpoint.
@@ -18,7 +18,7 @@ pub const MANY: usize = 4096;
 /// Steps between two checks of the order.
 pub(super) const INTERVAL: u64 = 250;
 
-/// Spheres are sorted again when one in this number lies in a cell before that of its predecessor.
+/// Spheres are sorted again when one in this number lies in a cell before its predecessor's cell.
 const TOLERATED: usize = 64;
 
 /// Rows of cells in a strip. A strip is traversed layer by layer before the next strip. One layer
@@ -28,9 +28,9 @@ const ROWS: u64 = 16;
 /// Cells along an axis; spheres beyond share the last one.
 const MOST: u64 = (1 << 20) - 1;
 
-/// The indices of all spheres in a new order, or none while the present order is good enough. Fixed
-/// spheres keep their places. Spheres of one cell are sorted by their coordinates, so that the
-/// order does not depend on their numbers in the scene.
+/// The indices of all spheres in a new order, or `None` while the present order is good enough.
+/// Fixed spheres keep their places. Spheres of one cell are sorted by their coordinates, so that
+/// the order does not depend on their numbers in the scene.
 pub(super) fn found_anew(particles: &Particles) -> Option<Vec<u32>> {
     let moving = particles.fixed..particles.len();
     let position = &particles.position;
@@ -109,7 +109,7 @@ mod tests {
     use super::*;
     use crate::particles::reorder::reorder;
 
-    /// Spheres at random places, numbered anyhow.
+    /// Spheres at random places, in random order.
     fn spheres(count: usize) -> Particles {
         let place = |i: usize, by: usize| (i * by % count) as f64 / count as f64;
         Particles {

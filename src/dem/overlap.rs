@@ -10,13 +10,13 @@ use crate::start;
 /// Overlaps below this share of the radius come from rounded positions.
 const NEGLIGIBLE: f64 = 1e-6;
 
-/// Overlaps beyond this share of the radius are named whatever the speeds of the scene are: few
-/// contacts are as soft.
+/// Overlaps beyond this share of the radius are always reported, whatever the speeds in the scene:
+/// few contacts are so soft.
 const DEEP: f64 = 0.5;
 
 /// What a sphere overlaps.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Partner {
+pub enum OverlapPartner {
     /// Another sphere that moves, by its number.
     Sphere(usize),
     /// A fixed sphere, by its centre (m).
@@ -33,7 +33,7 @@ pub struct Overlap {
     /// Its radius (m).
     pub radius: f64,
     /// What it overlaps.
-    pub partner: Partner,
+    pub partner: OverlapPartner,
     /// How deep (m).
     pub depth: f64,
     /// How deep, in radii of the smaller partner.
@@ -44,7 +44,7 @@ pub struct Overlap {
     pub speed: f64,
 }
 
-impl std::fmt::Display for Partner {
+impl std::fmt::Display for OverlapPartner {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Sphere(number) => write!(formatter, "sphere {number}"),
@@ -56,8 +56,9 @@ impl std::fmt::Display for Partner {
     }
 }
 
-/// Visits every overlap of the spheres that a scene lists, if they have contacts; but for driven
-/// ones in walls, fixed spheres and one another, as they pass them. Other starts have none.
+/// Visits every overlap of the spheres that a scene lists, if they have contacts. Overlaps of
+/// driven spheres with walls, fixed spheres and one another are left out, because driven spheres
+/// pass through these. Other starts have no overlaps.
 pub(super) fn visit(scene: &Scene, mut visit: impl FnMut(Overlap)) {
     let Some(contact) = &scene.dem.contact else {
         return;
@@ -99,8 +100,8 @@ pub(super) fn visit(scene: &Scene, mut visit: impl FnMut(Overlap)) {
                 sphere: j - fixed,
                 radius: radius[j],
                 partner: match i.checked_sub(fixed) {
-                    Some(number) => Partner::Sphere(number),
-                    None => Partner::Fixed([x, y, z]),
+                    Some(number) => OverlapPartner::Sphere(number),
+                    None => OverlapPartner::Fixed([x, y, z]),
                 },
                 depth,
                 depth_in_radii: depth / radius[i].min(radius[j]),
@@ -116,7 +117,7 @@ pub(super) fn visit(scene: &Scene, mut visit: impl FnMut(Overlap)) {
                 visit(Overlap {
                     sphere: i - fixed,
                     radius: radius[i],
-                    partner: Partner::Wall(wall.name()),
+                    partner: OverlapPartner::Wall(wall.name()),
                     depth: contact.overlap,
                     depth_in_radii: contact.overlap / radius[i],
                     distance: radius[i] - contact.overlap,
@@ -142,20 +143,20 @@ pub(super) fn deepest_at_start(scene: &Scene) -> f64 {
 }
 
 /// Overlaps at the start that are deeper than half a radius, or push spheres apart faster than any
-/// impact that a scene lets expect. Contacts of a former state of the scene are hardly ever faster:
-/// such impacts have made them, or weights that stand lower than they could have fallen.
+/// impact expected in the scene. Contacts taken over from an earlier state are hardly ever faster,
+/// because impacts or weights in the same scene made them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Release {
     /// The overlap with the greatest speed.
     pub fastest: Overlap,
     /// How many more there are.
     pub others: usize,
-    /// The fastest impact that the scene lets expect (m/s).
+    /// The fastest impact expected in the scene (m/s).
     pub impact: f64,
 }
 
 impl Release {
-    /// Those of a scene, if there are any.
+    /// Such overlaps of a scene, if there are any.
     pub fn of_scene(scene: &Scene) -> Option<Self> {
         let impact = fastest_impact(scene);
         let mut found: Option<Self> = None;

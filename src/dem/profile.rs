@@ -7,10 +7,10 @@ pub(super) use crate::simulation::Profile;
 
 /// The parts of a step that cost time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Part {
+pub enum StepPart {
     /// Building the neighbour list.
     List,
-    /// Looking in the list for pairs, and at the walls for spheres, that may touch.
+    /// Selecting the pairs, and the spheres at walls, that may touch.
     Near,
     /// Forces of pairs: contact and friction.
     Pairs,
@@ -39,7 +39,7 @@ pub enum Part {
     Process,
 }
 
-impl Part {
+impl StepPart {
     /// All parts, in the order of a step.
     pub fn all() -> impl Iterator<Item = Self> {
         let first = [
@@ -129,20 +129,20 @@ impl Part {
     }
 }
 
-/// The parts of a scene's step, in the order of [`Part::all`].
+/// The parts of a scene's step, in the order of [`StepPart::all`].
 pub(super) fn parts_of(scene: &Scene) -> Vec<PartOfStep> {
-    let part = |part: Part| PartOfStep {
+    let part = |part: StepPart| PartOfStep {
         name: part.name(),
         is_present: part.is_in(scene),
         // Feed, door and outlet work between the steps.
-        is_between_steps: part == Part::Process,
+        is_between_steps: part == StepPart::Process,
     };
-    Part::all().map(part).collect()
+    StepPart::all().map(part).collect()
 }
 
 /// An empty profile of the parts of a step.
 pub(super) fn new_profile() -> Profile {
-    Profile::new(Part::all().count(), Part::Rest.place())
+    Profile::new(StepPart::all().count(), StepPart::Rest.place())
 }
 
 /// Begins a step, if there is a profile.
@@ -155,7 +155,7 @@ pub(super) fn begin(profile: &mut Option<Box<Profile>>, step: u64, spheres: usiz
 
 /// Ends a part of a step, if there is a profile.
 #[inline(always)]
-pub(super) fn mark(profile: &mut Option<Box<Profile>>, part: Part) {
+pub(super) fn mark(profile: &mut Option<Box<Profile>>, part: StepPart) {
     if let Some(profile) = profile {
         profile.mark(part.place());
     }
@@ -167,7 +167,7 @@ mod tests {
 
     #[test]
     fn every_part_has_its_place() {
-        for (place, part) in Part::all().enumerate() {
+        for (place, part) in StepPart::all().enumerate() {
             assert_eq!(part.place(), place, "{part:?}");
             assert!(!part.name().is_empty());
         }

@@ -5,8 +5,8 @@ use crate::forces::simplification::MeanSphere;
 pub use crate::forces::simplification::Simplification;
 use crate::scene::{Contact, Scene};
 
-/// The simplifications of a scene's effects and laws, one part at a time: those that
-/// [`Scene::simplified`] makes another scene of that can be run.
+/// The simplifications of a scene's effects and laws, one part at a time, whose
+/// [`Scene::simplified`] can be run.
 pub fn simplifications(scene: &Scene) -> Vec<Simplification> {
     let (spheres, effects) = (&scene.spheres, &scene.dem.effects);
     let radius = scene.mean_radius();

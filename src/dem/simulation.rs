@@ -6,7 +6,7 @@ use super::laws::engine;
 use super::neighbours::VerletList;
 use super::order;
 use super::process::{Feed, Process};
-use super::system::{Engine, Setup};
+use super::system::{Engine, SystemSetup};
 use super::walls::TankWall;
 use crate::cpu_time;
 use crate::forces::effects::Targets;
@@ -19,7 +19,7 @@ use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 
 /// Why a scene cannot be run.
 #[derive(Debug, thiserror::Error)]
-pub enum BuildError {
+pub enum DemBuildError {
     /// The spheres cannot be placed.
     #[error(transparent)]
     Start(#[from] StartError),
@@ -29,8 +29,8 @@ pub enum BuildError {
     /// The friction law is made for another contact law.
     #[error("this friction law does not go with this contact law")]
     LawsDoNotGoTogether,
-    /// There is rolling resistance beside no friction, or beside one that knows no sliding.
-    #[error("rolling resistance needs a friction law that knows sliding")]
+    /// There is rolling resistance without friction, or with a friction law without sliding.
+    #[error("rolling resistance needs a friction law with sliding")]
     RollingWithoutFriction,
 }
 
@@ -42,12 +42,12 @@ const CONTACT_SKIN: f64 = 0.5;
 const COLUMN_SKIN: f64 = 1.0;
 
 /// A running simulation.
-pub struct Simulation {
+pub struct DemSimulation {
     pub(super) engine: Box<dyn Engine>,
-    /// Absent where no sphere comes or goes.
+    /// `None` if no sphere comes or goes.
     pub(super) process: Option<Process>,
     /// Radius (m), mass (kg) and moment of inertia (kg m2) of every sphere of the scene, including
-    /// those that are not in yet. Empty if all are alike and sorted.
+    /// spheres that are not in yet. Empty if all are alike and sorted.
     pub(super) radius: Vec<f64>,
     pub(super) mass: Vec<f64>,
     pub(super) inertia: Vec<f64>,
@@ -59,12 +59,12 @@ pub struct Simulation {
     pool: Option<ThreadPool>,
 }
 
-impl Simulation {
+impl DemSimulation {
     /// Places the spheres of a scene and makes it ready to run.
     ///
     /// # Errors
     /// If the spheres cannot be placed, or laws do not fit together.
-    pub fn new(scene: &Scene) -> Result<Self, BuildError> {
+    pub fn new(scene: &Scene) -> Result<Self, DemBuildError> {
         let skin = match (scene.dem.neighbours, &scene.dem.effects.updraught) {
             (Neighbours::VerletList, None) => CONTACT_SKIN,
             (Neighbours::VerletList, Some(_)) => COLUMN_SKIN,
@@ -75,12 +75,12 @@ impl Simulation {
     }
 
     /// The same with another first skin of the neighbour list, in radii of the largest sphere: 0
-    /// builds it at every step, a large one lists all pairs. Nothing but the speed depends on it: a
-    /// test compares the bits.
+    /// rebuilds the list at every step, a large skin lists all pairs. Only the speed depends on it:
+    /// a test compares the bits.
     ///
     /// # Errors
     /// As [`new`](Self::new).
-    pub fn with_skin(scene: &Scene, skin: f64) -> Result<Self, BuildError> {
+    pub fn with_skin(scene: &Scene, skin: f64) -> Result<Self, DemBuildError> {
         let spheres = start::place(scene)?;
         let alike = spheres.radius.windows(2).all(|two| two[0] == two[1]);
         let skin = skin * spheres.largest_radius();
@@ -109,7 +109,7 @@ impl Simulation {
             true => Default::default(),
             false => scalars.unwrap_or_else(|| scalars_of(&particles)),
         };
-        let setup = Setup {
+        let setup = SystemSetup {
             sorted,
             flows,
             ..setup(scene, &particles, skin)
@@ -155,7 +155,7 @@ impl Simulation {
     }
 
     /// Whether all spheres are in, and all have left or are at rest for good: nothing more will
-    /// happen. Never so in a scene where no sphere comes or goes.
+    /// happen. Always false in a scene where no sphere comes or goes.
     pub fn ended(&self) -> bool {
         self.process.as_ref().is_some_and(Process::ended)
     }
@@ -187,17 +187,17 @@ impl Simulation {
         }
     }
 
-    /// Keeps to the instructions that every machine of this architecture has. Slower, and the
-    /// same bits: a test compares the two.
+    /// Uses only instructions that every machine of this architecture has. Slower, with the same
+    /// bits: a test compares the two.
     pub fn use_baseline_instructions(&mut self) {
         self.engine.use_baseline_instructions();
     }
 
-    /// Advances on this number of threads from now on, in scenes where that pays: those of
-    /// [`MANY`](order::MANY) spheres or more. The bits do not depend on it.
+    /// Advances on this number of threads from now on, in scenes of [`MANY`](order::MANY) spheres
+    /// or more, where that pays. The bits do not depend on it.
     ///
     /// # Errors
-    /// If the system gives no threads.
+    /// If the system cannot start threads.
     pub fn use_threads(&mut self, threads: usize) -> Result<(), ThreadPoolBuildError> {
         self.pool = match self.engine.use_threads(threads) {
             true => Some(ThreadPoolBuilder::new().num_threads(threads).build()?),
@@ -206,15 +206,15 @@ impl Simulation {
         Ok(())
     }
 
-    /// Processor time of the threads that it was asked to use besides the caller's (s).
+    /// Processor time (s) of its threads besides the caller's.
     pub(crate) fn seconds_of_threads(&self) -> f64 {
         let pool = self.pool.iter();
         pool.flat_map(|pool| pool.broadcast(|_| cpu_time::of_this_thread()))
             .sum()
     }
 
-    /// The spheres that are in the simulation, the fixed ones first. The order of the others is
-    /// that of the scene if it has fewer than [`MANY`](order::MANY), else that of their places: see
+    /// The spheres that are in the simulation, the fixed ones first. Fewer than
+    /// [`MANY`](order::MANY) others are in the order of the scene, more are sorted by place: see
     /// [`number`](Particles::number).
     pub fn particles(&self) -> &Particles {
         self.engine.particles()
@@ -225,7 +225,7 @@ impl Simulation {
         self.engine.step()
     }
 
-    /// How often a sphere was moved, sub-steps counted: what the run costs, in sphere-steps.
+    /// How often a sphere was moved, counting sub-steps: the cost of the run in sphere-steps.
     pub fn moves(&self) -> u64 {
         self.engine.moves()
     }
@@ -246,12 +246,12 @@ impl Simulation {
     }
 }
 
-/// What a scene specifies for a system besides its laws and spheres, with the skin of the neighbour
-/// list (m). Spheres are not sorted in memory.
-fn setup(scene: &Scene, particles: &Particles, skin: f64) -> Setup {
+/// What a system needs from a scene besides laws and spheres, with the skin of the neighbour list
+/// (m). Spheres are not sorted in memory.
+fn setup(scene: &Scene, particles: &Particles, skin: f64) -> SystemSetup {
     let tank = scene.tank.as_ref();
     let is_closed = scene.dem.door.is_some();
-    Setup {
+    SystemSetup {
         walls: tank
             .map(|tank| TankWall::of_tank(tank, is_closed))
             .unwrap_or_default(),
@@ -301,7 +301,7 @@ fn waiting(spheres: &Particles, scene: &Scene) -> Vec<Sphere> {
         radius: spheres.radius[i],
         mass: spheres.mass[i],
         inertia: spheres.inertia.get(i).copied(),
-        // Where it comes in nothing else acts on it.
+        // Nothing else acts on it where it comes in.
         force: Vector::new(gravity[0], 0.0, gravity[1]) * spheres.mass[i],
     };
     (0..spheres.len()).map(sphere).collect()

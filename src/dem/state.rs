@@ -1,14 +1,14 @@
 //! The state of a simulation between two steps, from which it continues.
 
-use super::Simulation;
+use super::DemSimulation;
 use super::process::{Process, ProcessState};
 use super::system::EngineState;
 pub(super) use crate::simulation::StateError;
 use serde::{Deserialize, Serialize};
 
 /// The state of a simulation: everything that follows neither from its scene nor from the rest of
-/// the state. Random streams are not in it, because they serve the start alone. Lists of neighbours
-/// are not in it, because no bit depends on them.
+/// the state. Random streams are left out because only the start uses them, and neighbour lists
+/// because no bit depends on them.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct SimulationState<'a> {
     engine: EngineState<'a>,
@@ -26,7 +26,7 @@ impl SimulationState<'_> {
     }
 }
 
-impl Simulation {
+impl DemSimulation {
     /// The state between the latest step and the next. Asking for it never changes the motion.
     pub fn state(&self) -> SimulationState<'_> {
         SimulationState {
@@ -39,7 +39,7 @@ impl Simulation {
     /// have been advanced. It then has the same bits as the one that was saved.
     ///
     /// # Errors
-    /// If the state cannot be one of this scene; the simulation is then as it was.
+    /// If the state cannot belong to this scene; the simulation is then unchanged.
     pub fn restore(&mut self, state: SimulationState<'_>) -> Result<(), StateError> {
         match (&self.process, &state.process) {
             (Some(process), Some(state)) => process.accepts(state)?,

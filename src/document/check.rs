@@ -20,7 +20,7 @@ impl Kind {
         };
         match (self, value) {
             (Self::Either(kinds), _) => match kinds.iter().find(|kind| kind.fits_type_of(value)) {
-                // Who writes another word may have meant any of the kinds.
+                // Another word may have been meant for any of the kinds.
                 Some(Self::Choice(words)) if words.iter().all(|word| value != word) => {
                     problems.push(misfit());
                 }
@@ -82,7 +82,7 @@ impl Kind {
     }
 }
 
-/// Of a table with any keys: TOML knows no null, which is what became of a number that is none.
+/// For a table with any keys. TOML has no null: it stands for a number that is not finite.
 fn check_finite(value: &Value, path: &str, problems: &mut Vec<Problem>) {
     match value {
         Value::Null => {
@@ -103,7 +103,7 @@ fn check_finite(value: &Value, path: &str, problems: &mut Vec<Problem>) {
     }
 }
 
-/// What to write in place of a number that is not whole, or less than `least`.
+/// What to write instead of a number that is not whole, or less than `least`.
 fn advice_on_whole(number: &serde_json::Number, least: u64) -> String {
     let value = number.as_f64().unwrap_or(f64::NAN);
     match libm::trunc(value) == value && value >= least as f64 {
@@ -113,7 +113,7 @@ fn advice_on_whole(number: &serde_json::Number, least: u64) -> String {
     }
 }
 
-/// What was found in place of the value that should be there.
+/// What was found instead of the expected value.
 fn found(value: &Value) -> String {
     match value {
         Value::Null => "not a finite number".to_owned(),
@@ -126,7 +126,7 @@ fn found(value: &Value) -> String {
     }
 }
 
-/// How a message calls the table at `path`.
+/// The name of the table at `path` in messages.
 fn table_name(path: &str) -> String {
     match path {
         "" => "the file".to_owned(),
@@ -195,7 +195,7 @@ fn unknown_key(
             .chain(keys.iter().map(|key| key.name.as_str()))
     };
     let message = format!("{table_name} has no key `{name}`");
-    let known = format!("{table_name} knows {}", one_of(names()));
+    let known = format!("{table_name} has the keys {}", one_of(names()));
     let help = match suggest(name, names()) {
         Some(near) => format!("did you mean `{near}`? {known}"),
         None => known,

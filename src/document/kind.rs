@@ -53,9 +53,9 @@ pub(crate) enum Kind {
     /// A list of three numbers.
     Vector,
     Table(Table),
-    /// A table whose key `0` says which of the lists of further keys holds.
+    /// A table whose key `0` selects one of the lists of further keys.
     Tagged(String, Vec<Variant>),
-    /// Any of several kinds, told apart by their TOML type.
+    /// Any of several kinds, distinguished by their TOML type.
     Either(Vec<Kind>),
     /// Anything: what it must be depends on other keys.
     Any,
@@ -72,14 +72,14 @@ pub(crate) struct Range {
 }
 
 impl Range {
-    /// Every number that could be meant.
+    /// Every number that could be intended.
     pub(crate) const ANY: Self = Self {
         low: -Self::HUGE,
         low_allowed: true,
         high: Self::HUGE,
     };
 
-    /// A number of this size is beyond anything that could be meant; no message speaks of it.
+    /// A bound of this size is not mentioned in messages.
     pub(crate) const HUGE: f64 = 1e30;
 
     pub(super) fn contains(self, value: f64) -> bool {
@@ -91,7 +91,7 @@ impl Range {
         high_enough && value <= self.high
     }
 
-    /// What to use in place of a number that is outside.
+    /// What to use instead of a number outside the range.
     pub(super) fn advice(self, value: f64) -> String {
         match (value > self.high, self.low_allowed) {
             (true, _) => format!("use {} or less", number(self.high)),
@@ -116,7 +116,7 @@ impl Range {
 }
 
 impl Kind {
-    /// What a value of this kind is, as a noun.
+    /// A description of a value of this kind, as a noun.
     pub(crate) fn words(&self) -> String {
         match self {
             Self::Text => "a text in quotes".to_owned(),
@@ -148,7 +148,7 @@ impl Kind {
         }
     }
 
-    /// Shows `see` every key with its path, `[]` for the entries of a list.
+    /// Calls `see` with every key and its path, `[]` for the entries of a list.
     pub(crate) fn visit<'a>(&'a self, path: &str, see: &mut dyn FnMut(&str, &'a Key)) {
         let mut visit_table = |table: &'a Table| {
             for key in &table.keys {
@@ -166,7 +166,7 @@ impl Kind {
         }
     }
 
-    /// Whether the TOML type of `value` is that of this kind.
+    /// Whether the TOML type of `value` matches this kind.
     pub(crate) fn fits_type_of(&self, value: &Value) -> bool {
         match self {
             Self::Text | Self::Choice(_) => value.is_string(),

@@ -16,10 +16,10 @@ pub enum LoadError {
     Read {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// The system's error.
         source: io::Error,
     },
-    /// The file says something it must not.
+    /// The file has errors.
     Invalid(Vec<Finding>),
 }
 
@@ -65,7 +65,7 @@ pub struct Finding {
     pub message: String,
     /// The file.
     pub path: PathBuf,
-    /// Where in the file; absent if the file as a whole is meant.
+    /// Where in the file; `None` for the file as a whole.
     pub spot: Option<Spot>,
     /// What to do about it.
     pub help: Option<String>,
@@ -103,7 +103,7 @@ impl Finding {
 
 impl Spot {
     fn new(text: &str, span: Range<usize>) -> Self {
-        // An error at the end of a file belongs to its last line, not to the one after it.
+        // An error at the end of a file belongs to its last line, not to the line after it.
         let end = text.trim_end_matches(['\n', '\r']).len();
         let from = span.start.min(end);
         let start = text[..from].rfind('\n').map_or(0, |newline| newline + 1);

@@ -1,5 +1,5 @@
-//! What scene files and sweep files have in common: TOML text whose every key knows its place, a
-//! description of the keys that may be there, and errors that point into the text.
+//! The common part of scene files and sweep files: TOML text with the place of every key, a
+//! description of allowed keys, and errors that point into the text.
 
 mod check;
 mod difference;
@@ -38,12 +38,12 @@ pub(crate) struct Document {
     places: BTreeMap<String, Place>,
 }
 
-/// Where a key stands in the text, in bytes.
+/// Where a key is in the text, in bytes.
 #[derive(Clone, Debug)]
 struct Place {
     /// The key itself; an entry of a list has none.
     key: Option<Range<usize>>,
-    /// Its value; of a table the header.
+    /// Its value; for a table, the header.
     value: Range<usize>,
 }
 
@@ -51,7 +51,7 @@ impl Document {
     /// Reads a file.
     ///
     /// # Errors
-    /// If it cannot be read, or is no TOML.
+    /// If it cannot be read, or is not TOML.
     pub(crate) fn read(path: &Path) -> Result<Self, LoadError> {
         let bytes = std::fs::read(path).map_err(|source| LoadError::Read {
             path: path.to_owned(),
@@ -68,10 +68,10 @@ impl Document {
         Self::parse(text, path)
     }
 
-    /// Takes `text` for the content of the file `path`.
+    /// Parses `text` as the content of the file `path`.
     ///
     /// # Errors
-    /// If it is no TOML.
+    /// If it is not TOML.
     pub(crate) fn parse(text: String, path: &Path) -> Result<Self, LoadError> {
         let mut document = Self {
             path: path.to_owned(),
@@ -86,7 +86,7 @@ impl Document {
             }
             Err(error) => {
                 let message = format!("this is not TOML: {}", error.message());
-                // The most frequent slip, which the parser takes for a misspelt `true`.
+                // The most frequent mistake, which the parser reports as a misspelt `true`.
                 let word = error
                     .span()
                     .and_then(|span| document.text[span.start..].chars().next());
@@ -100,12 +100,12 @@ impl Document {
         }
     }
 
-    /// The content, numbers that are not finite as null.
+    /// The content, with null for numbers that are not finite.
     pub(crate) fn tree(&self) -> &Value {
         &self.tree
     }
 
-    /// The keys and tables that are not within others, with their values.
+    /// The top-level keys and tables, with their values.
     pub(crate) fn entries(&self) -> Vec<(String, Value)> {
         let table = self.tree.as_object().into_iter().flatten();
         table
@@ -150,7 +150,7 @@ impl Document {
         }
     }
 
-    /// The place of a problem: that of its key, or of the nearest enclosing table in the file.
+    /// The place of a problem: its key, or the nearest enclosing table in the file.
     fn span(&self, problem: &Problem) -> Option<Range<usize>> {
         let mut path = problem.path.as_str();
         loop {

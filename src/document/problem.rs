@@ -11,8 +11,8 @@ pub struct Problem {
     pub help: Option<String>,
     /// Whether the key itself is at fault, not its value.
     pub(crate) at_key: bool,
-    /// The largest value that the help advises, where it allows all below. Of several scenes with
-    /// such a problem the least one mends all.
+    /// The largest value that the help advises, if all smaller values are allowed too. If several
+    /// scenes have such a problem, the smallest of these values fixes all.
     pub(crate) most: Option<f64>,
 }
 
@@ -46,7 +46,7 @@ impl Problem {
         self
     }
 
-    /// The same problem in a scene that stands in the table `table` of a larger file.
+    /// The same problem in a scene in the table `table` of a larger file.
     pub(crate) fn within(mut self, table: &str) -> Self {
         self.path = match self.path.as_str() {
             "" => table.to_owned(),

@@ -18,7 +18,7 @@ pub(crate) fn place(symbol: &str, name: &str) -> Attribute {
     quantity(symbol, "m", name).at_least(-most).at_most(most)
 }
 
-/// A time (s) that the run is made of.
+/// A time (s) of a run.
 pub(crate) fn seconds(symbol: &str, name: &str) -> Attribute {
     quantity(symbol, "s", name).at_least(1e-15).at_most(1e15)
 }

@@ -1,4 +1,4 @@
-//! What a numeric key measures, and which numbers it may hold: said once, at the field.
+//! What a numeric key measures, and which numbers it may hold: declared once, at the field.
 //!
 //! ```ignore
 //! /// Acceleration g (m/s2).
@@ -26,12 +26,12 @@ pub(crate) struct Quantity {
     /// Plain name, without the unit.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub(crate) name: String,
-    /// Units that it has instead, depending on other keys of its table.
+    /// Other units, depending on other keys of its table.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     other_units: Vec<OtherUnit>,
 }
 
-/// The unit of a quantity where the key `key` of the same table says `word`.
+/// The unit of a quantity if the key `key` of the same table is `word`.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 struct OtherUnit {
     key: String,
@@ -40,7 +40,7 @@ struct OtherUnit {
 }
 
 impl Quantity {
-    /// That of a key with this schema, if its field says one.
+    /// The quantity of a key with this schema, if its field declares one.
     pub(super) fn of(schema: &Value) -> Option<Self> {
         Self::deserialize(schema.get(KEYWORD)?).ok()
     }
@@ -106,7 +106,7 @@ impl Attribute {
         self
     }
 
-    /// Another unit where the key `key` of the same table says `word`.
+    /// Another unit if the key `key` of the same table is `word`.
     pub(crate) fn unit_where(mut self, key: &str, word: &str, unit: &str) -> Self {
         self.quantity.other_units.push(OtherUnit {
             key: key.to_owned(),
@@ -116,7 +116,7 @@ impl Attribute {
         self
     }
 
-    /// A file may say `word` in place of a number.
+    /// A file may have `word` instead of a number.
     pub(crate) fn or(mut self, word: &'static str) -> Self {
         self.word = Some(word);
         self
@@ -126,7 +126,7 @@ impl Attribute {
 impl Transform for Attribute {
     fn transform(&mut self, schema: &mut Schema) {
         let schema = schema.ensure_object();
-        // The range of a list is that of its entries.
+        // The range of a list applies to its entries.
         let range = self.range.clone();
         match schema.get_mut("items").and_then(Value::as_object_mut) {
             Some(entries) => entries.extend(range),

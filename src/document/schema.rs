@@ -1,4 +1,5 @@
-//! From a struct to what a file may say: its JSON schema, and the keys that are read from that.
+//! From a struct to the allowed contents of a file: its JSON schema, and the keys that are read
+//! from it.
 
 use super::kind::{Key, Kind, Range, Table, Variant};
 use super::quantity::Quantity;
@@ -7,12 +8,12 @@ use schemars::transform::transform_subschemas;
 use schemars::{JsonSchema, Schema as JsonSchemaOf};
 use serde_json::{Map, Value, json};
 
-/// What a file or a part of one may say. It all stands at the fields of the struct that the file
-/// ends in: type, description, default, unit, symbol and range.
+/// The allowed contents of a file or a part of one. They are declared at the fields of the struct
+/// into which the file is read: type, description, default, unit, symbol and range.
 pub(crate) struct Schema {
     /// The JSON schema, for editors.
     pub(crate) json: Value,
-    /// The same for the program: what files are checked by.
+    /// The same for the program, which checks files with it.
     pub(crate) kind: Kind,
 }
 
@@ -29,8 +30,8 @@ impl Schema {
     }
 }
 
-/// Takes out what TOML does not have (null) and what says nothing to a reader; refuses keys that
-/// no field has.
+/// Removes null, which TOML does not have, and keywords without meaning for readers; refuses
+/// unknown keys.
 fn tidy(schema: &mut JsonSchemaOf) {
     without_null(schema.ensure_object());
     transform_subschemas(&mut tidy, schema);
@@ -41,7 +42,7 @@ fn tidy(schema: &mut JsonSchemaOf) {
         let text = paragraphs.collect::<Vec<_>>().join("\n");
         schema.insert("description".to_owned(), json!(text));
     }
-    // A table that is left out has the defaults of its keys.
+    // An absent table has the defaults of its keys.
     if matches!(schema.get("default"), Some(Value::Null | Value::Object(_))) {
         schema.remove("default");
     }
@@ -51,7 +52,7 @@ fn tidy(schema: &mut JsonSchemaOf) {
     with_words(schema);
 }
 
-/// Takes null out of the alternatives; of one that is left nothing but itself remains.
+/// Removes null from the alternatives; a single remaining one replaces the list.
 fn without_null(schema: &mut Map<String, Value>) {
     if let Some(Value::Array(types)) = schema.get("type") {
         let other = types.iter().find(|name| *name != "null").cloned();
@@ -69,7 +70,7 @@ fn without_null(schema: &mut Map<String, Value>) {
     }
 }
 
-/// Makes one list of words, with one description, of words that have a description each.
+/// Merges words with separate descriptions into one list with one description.
 fn with_words(schema: &mut Map<String, Value>) {
     let branches = schema.get("oneOf").and_then(Value::as_array);
     let Some(branches) = branches.filter(|all| all.iter().all(|it| it["const"].is_string())) else {

@@ -1,11 +1,11 @@
-//! Names in messages: lists of them, and the one that was probably meant.
+//! Names in messages: lists, and the name that was probably meant.
 
 /// `` `a` `` for a.
 pub(crate) fn quoted(name: impl std::fmt::Display) -> String {
     format!("`{name}`")
 }
 
-/// A number as one would write it: in powers of ten where it is very large or small.
+/// A number as one would write it: with an exponent if it is very large or small.
 pub(crate) fn number(value: f64) -> String {
     match value.abs() {
         size if size != 0.0 && !(1e-3..1e6).contains(&size) => format!("{value:e}"),
@@ -27,7 +27,7 @@ pub(crate) fn any_of<S: AsRef<str>>(names: impl IntoIterator<Item = S>) -> Strin
     one_of(names).replace("`, `", "` or `")
 }
 
-/// The name that is nearest to `word`, if one is near enough to have been meant.
+/// The name nearest to `word`, if it is near enough to have been meant.
 pub(crate) fn suggest<'a>(word: &str, names: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let enough = (word.chars().count() / 3).max(1);
     let word = word.to_lowercase();

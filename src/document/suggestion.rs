@@ -1,4 +1,4 @@
-//! Numbers that a message says to type: short ones that the check accepts.
+//! Numbers that messages suggest: short, and accepted by the check.
 
 use super::number;
 
@@ -9,17 +9,17 @@ const DECIMALS: usize = 5;
 const ALL_DECIMALS: usize = 16;
 
 /// The shortest number next to `value` that the check accepts, to six significant digits or more.
-/// None if the check refuses `value` itself.
+/// `None` if the check refuses `value` itself.
 pub(crate) fn accepted(value: f64, accepts: impl Fn(f64) -> bool) -> Option<String> {
     shortest(value, accepts).map(number)
 }
 
-/// `value`, rounded up if at all: a number that is accepted where `value` is the least.
+/// `value`, rounded up if necessary: accepted where `value` is the minimum.
 pub(crate) fn at_least(value: f64) -> String {
     number(rounded_up(value))
 }
 
-/// `value`, rounded down if at all: a number that is accepted where `value` is the most.
+/// `value`, rounded down if necessary: accepted where `value` is the maximum.
 pub(crate) fn at_most(value: f64) -> String {
     number(rounded_down(value))
 }
@@ -40,7 +40,7 @@ fn shortest(value: f64, accepts: impl Fn(f64) -> bool) -> Option<f64> {
         .find(|candidate| accepts(*candidate))
 }
 
-/// The number of so many decimals that is nearest to `value`, and the next ones above and below.
+/// The number with `decimals` decimals nearest to `value`, and the next ones above and below.
 fn neighbours(value: f64, decimals: usize) -> [f64; 3] {
     let round = |value: f64| format!("{value:.decimals$e}");
     let nearest = round(value);

@@ -12,7 +12,7 @@ pub(crate) fn read(path: &Path) -> io::Result<String> {
     Ok(text)
 }
 
-/// The lines that say something, with their numbers from 1: neither blank nor a `#` comment.
+/// The lines with content, neither blank nor a `#` comment, with their numbers from 1.
 pub(crate) fn lines(text: &str) -> impl Iterator<Item = (u64, &str)> {
     (1..)
         .zip(text.lines())
@@ -20,7 +20,7 @@ pub(crate) fn lines(text: &str) -> impl Iterator<Item = (u64, &str)> {
         .filter(|(_, line)| !line.is_empty() && !line.starts_with('#'))
 }
 
-/// The finite number that `field` is, or what is wrong with it.
+/// Parses a finite number, or says what is wrong.
 pub(crate) fn number(field: &str) -> Result<f64, String> {
     match field.parse::<f64>() {
         Ok(value) if value.is_finite() => Ok(value),
@@ -30,7 +30,7 @@ pub(crate) fn number(field: &str) -> Result<f64, String> {
     }
 }
 
-/// The radius (m) that `field` is, or what is wrong with it.
+/// Parses a radius (m), or says what is wrong.
 pub(crate) fn radius(field: &str) -> Result<f64, String> {
     match number(field)? {
         value if value > 0.0 => Ok(value),
@@ -40,8 +40,8 @@ pub(crate) fn radius(field: &str) -> Result<f64, String> {
     }
 }
 
-/// What to do about an error of the system, where that is not obvious from its text.
-/// Begins with a semicolon, or is empty.
+/// What to do about a system error, if this is not obvious from its text. Begins with a semicolon,
+/// or is empty.
 pub fn advice(error: &io::Error) -> &'static str {
     match error.kind() {
         io::ErrorKind::NotFound => "; check the path",

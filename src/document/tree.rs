@@ -59,7 +59,7 @@ fn of_value(
 fn of_integer(integer: &DeInteger<'_>) -> Value {
     match i64::from_str_radix(integer.as_str(), integer.radix()) {
         Ok(value) => Value::from(value),
-        // Beyond 64 bits: fine as a number, and refused as an integer.
+        // Beyond 64 bits: valid as a number, but refused as an integer.
         Err(_) => of_float(integer.as_str()),
     }
 }

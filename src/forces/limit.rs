@@ -22,10 +22,10 @@ pub struct Limit {
 }
 
 impl Limit {
-    /// The consequence of coarse steps for a velocity or spin that relaxes, as towards that of the
-    /// air.
+    /// The consequence of coarse steps for a relaxing velocity or spin, for example towards the
+    /// air's.
     pub(crate) const PASSES_ITS_END: Option<&str> =
-        Some("stable, but relaxing velocities overshoot and oscillate from step to step");
+        Some("stable, but relaxing velocities overshoot and oscillate in every step");
 
     /// The consequence of coarse steps for a contact.
     pub(crate) const COARSE: Option<&str> = Some(
@@ -34,7 +34,7 @@ impl Limit {
     );
 }
 
-/// What the limits of effects and laws are computed from.
+/// The quantities from which limits of effects and laws are computed.
 pub(crate) struct Regime<'a> {
     /// How stable the integrator keeps an oscillator.
     pub(crate) scheme: Scheme,
@@ -58,7 +58,7 @@ pub(crate) struct Regime<'a> {
     pub(crate) inertia_factor: f64,
     /// Whether there are walls or fixed spheres.
     pub(crate) has_walls: bool,
-    /// Whether spheres move along prescribed paths, as if they were endlessly heavy.
+    /// Whether spheres move along prescribed paths, as if infinitely heavy.
     pub(crate) drives: bool,
     /// The fastest relative speed (m/s) to expect at an impact.
     pub(crate) fastest_impact: f64,
@@ -100,9 +100,8 @@ impl Regime<'_> {
             name: DISPLACEMENT,
             seconds: self.displacement_guard * self.smallest_radius / (speed * knocked_on),
             decisive: false,
-            explanation: "the fastest sphere stays below the displacement guard: the smallest at \
-                          the fastest speed, times 2 M / (M + m), at which the largest knocks it \
-                          on, or times 2, at which a driven one does",
+            explanation: "the fastest sphere stays below the displacement guard: the smallest, hit \
+                by the largest (fastest speed times 2 M / (M + m)) or by a driven one (times 2)",
             consequence: Some(
                 "the fastest sphere may pass the displacement guard, which ends the run",
             ),

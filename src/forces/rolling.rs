@@ -9,8 +9,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// A torque against rolling at contacts: a spring, capped at mu_r R_eff F_n, and a dashpot below
-/// the cap (Ai, Chen, Rotter and Ooi, 2011, type C). It acts beside a friction law that knows
-/// sliding, so not beside `spin`.
+/// the cap (Ai, Chen, Rotter and Ooi, 2011, type C). It needs a friction law with sliding, so any
+/// law but `spin`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Rolling {
@@ -34,8 +34,8 @@ impl Rolling {
         RollingLaw::new(self.coefficient, self.damping)
     }
 
-    /// Its limit of the time step beside a contact law: that of the smallest sphere at its
-    /// like, or at something that does not turn.
+    /// Its limit of the time step with a contact law: for the smallest sphere at an equal one, or
+    /// at something that does not turn.
     pub(crate) fn limit(&self, contact: &Contact, regime: &Regime<'_>) -> Limit {
         let (radius, mass) = (regime.smallest_radius, regime.smallest_mass);
         let inertia = regime.smallest_inertia();
@@ -73,24 +73,24 @@ impl Rolling {
 /// the relative rolling of the partners, up to M_max = mu_r R_eff F_n, and below that a dashpot
 /// adds -C_r dtheta/dt with C_r = 2 eta_r (I_r k_r)^1/2.
 ///
-/// Of the two stiffnesses that the paper names, k_r = 2.25 k_n mu_r^2 R_eff^2 is taken, with k_n =
-/// dF_n / dxi at the present overlap: every contact law has it, while k_t R_eff^2 has no meaning
-/// beside Coulomb's friction. The factor 2.25 is that of spheres; it serves discs too. The spring
-/// is full after an angle of F_n / (2.25 k_n mu_r R_eff).
+/// The paper names two stiffnesses. Here k_r = 2.25 k_n mu_r^2 R_eff^2 is used, with k_n = dF_n /
+/// dxi at the present overlap: every contact law has it, while k_t R_eff^2 has no meaning for
+/// Coulomb friction. The factor 2.25 is derived for spheres and also used for discs. The spring is
+/// full after an angle of F_n / (2.25 k_n mu_r R_eff).
 ///
-/// The dashpot has no cap of its own, as in the paper: where partners meet that roll fast already,
-/// it brakes them hard until the spring is full.
+/// The dashpot itself has no cap, as in the paper: partners that already roll fast when they meet
+/// are braked hard until the spring is full.
 ///
-/// Where the normal force falls, the spring keeps its moment while its stiffness falls; what it
-/// then gives back or not is the law's, as in Mindlin's friction.
+/// When the normal force falls, the spring keeps its moment while its stiffness falls, so that the
+/// model can gain energy, as in Mindlin's friction.
 #[derive(Clone, Copy, Debug)]
 pub struct RollingLaw {
     coefficient: f64,
     damping: f64,
 }
 
-/// A contact as rolling resistance sees it. The torque acts on the first partner, and its opposite
-/// on the other.
+/// A contact in the form that rolling laws take. The torque acts on the first partner, and its
+/// opposite on the other.
 #[derive(Clone, Copy, Debug)]
 pub struct RollingTouch {
     /// Unit normal.

@@ -2,7 +2,7 @@
 
 /// An axis along which something is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Axis {
+pub enum SpaceAxis {
     /// Across a box, from side wall to side wall.
     X,
     /// Through its depth.
@@ -11,8 +11,8 @@ pub enum Axis {
     Z,
 }
 
-impl Axis {
-    /// The coordinate of a place along it is the one of this number.
+impl SpaceAxis {
+    /// Index of the coordinate along it.
     pub fn index(self) -> usize {
         self as usize
     }

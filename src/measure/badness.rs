@@ -28,15 +28,15 @@ impl Badness {
         }
     }
 
-    /// As printed: sum over the overlapping partners of a sphere of (delta/d)^2, mean over spheres.
-    /// None if no sphere was in the region.
+    /// As printed in the paper: sum over the overlapping partners of a sphere of (delta/d)^2, mean
+    /// over spheres. `None` if no sphere was in the region.
     pub fn as_printed(&self) -> Option<f64> {
         self.of_each(self.squares)
     }
 
-    /// Sum of delta/d over overlapping pairs, each counted once, per sphere: the numbers that the
-    /// paper gives cannot be those of its formula, and come near to these. None if no sphere was in
-    /// the region.
+    /// Sum of delta/d over overlapping pairs, each counted once, per sphere. The numbers in the
+    /// paper cannot follow from its formula, but are close to these. `None` if no sphere was in the
+    /// region.
     pub fn of_pairs(&self) -> Option<f64> {
         self.of_each(self.overlaps)
     }

@@ -25,13 +25,13 @@ impl Bins {
         let place = [place.x, place.y, place.z];
         let along = |axis: usize| {
             let bin = ((place[axis] - self.region.low[axis]) / self.width(axis)) as usize;
-            // Rounding may reach the upper side.
+            // Rounding may give the upper edge.
             bin.min(self.counts[axis] - 1)
         };
         Some((along(0) * self.counts[1] + along(1)) * self.counts[2] + along(2))
     }
 
-    /// A place as seen from the middle of a bin (m).
+    /// A place relative to the middle of a bin (m).
     pub(super) fn relative_to_middle(&self, place: Vector, index: usize) -> [f64; 3] {
         let [_, depth, height] = self.counts;
         let bin = [

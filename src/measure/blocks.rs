@@ -1,12 +1,13 @@
-//! Intervals of what is measured over a series in time whose neighbours are correlated.
+//! Confidence intervals of quantities measured over a correlated time series.
 
 use crate::statistics::Estimate;
 
-/// Most blocks of a series. Ten to thirty are enough for an interval, and the fewer they are, the
-/// less neighbouring ones are correlated: Schmeiser, Operations Research 30, 556 (1982).
+/// Largest number of blocks of a series. Ten to thirty are enough for an interval, and the fewer
+/// they are, the less neighbouring ones are correlated: Schmeiser, Operations Research 30, 556
+/// (1982).
 const BLOCKS: usize = 10;
 
-/// Sums over a series, and those without each of its blocks of consecutive members.
+/// Sums over a series, and sums that leave out each of its blocks of consecutive members.
 #[derive(Clone, Debug)]
 pub(super) struct Blocks {
     whole: Vec<f64>,
@@ -14,8 +15,8 @@ pub(super) struct Blocks {
 }
 
 impl Blocks {
-    /// Of rows in the order of time, of the same columns: at most ten blocks of as many rows,
-    /// within one.
+    /// From rows in the order of time with the same columns: at most ten blocks of equal length,
+    /// within one row.
     pub(super) fn of(rows: &[Vec<f64>]) -> Self {
         let count = rows.len().min(BLOCKS);
         let columns = rows.first().map_or(0, Vec::len);
@@ -34,18 +35,18 @@ impl Blocks {
         }
     }
 
-    /// What follows from the sums of the columns, if anything does.
+    /// The value that `follows` from the sums of the columns, if any.
     ///
     /// The interval is Student's t of Tukey's pseudo-values, which leave out one block after the
-    /// other (jackknife over blocks: Künsch, Annals of Statistics 17, 1217 (1989)). Of a mean over
-    /// blocks of one length it is the usual interval. It holds if a block is several correlation
-    /// times long. It is infinite if nothing follows without one of the blocks.
+    /// other (jackknife over blocks: Künsch, Annals of Statistics 17, 1217 (1989)). For a mean
+    /// over blocks of equal length it is the usual interval. It holds if a block is several
+    /// correlation times long. It is infinite if no value follows without one of the blocks.
     pub(super) fn estimate(&self, follows: impl Fn(&[f64]) -> Option<f64>) -> Option<Estimate> {
         let [estimate] = self.estimates(|sums| Some([follows(sums)?]))?;
         Some(estimate)
     }
 
-    /// The same of several values that follow together.
+    /// The same for several values at once.
     pub(super) fn estimates<const N: usize>(
         &self,
         follow: impl Fn(&[f64]) -> Option<[f64; N]>,

@@ -15,7 +15,7 @@ pub struct BondAngles {
 }
 
 impl BondAngles {
-    /// No angles yet; so many bins of one width from 0 to pi.
+    /// No angles yet; `bins` bins of equal width from 0 to pi.
     ///
     /// * `cutoff`: largest distance of a neighbour (m). Usual is the first minimum of the radial
     ///   distribution function, 1.2 to 1.4 diameters in a dense random packing.
@@ -58,7 +58,7 @@ impl BondAngles {
     }
 
     /// The angle at the middle of each bin (rad), and the density of angles there (1/rad), whose
-    /// integral is 1. Of bonds without correlation it is sin(theta) / 2.
+    /// integral is 1. For uncorrelated bonds it is sin(theta) / 2.
     pub fn values(&self) -> Vec<[f64; 2]> {
         let width = PI / self.counts.len() as f64;
         let all = self.counts.iter().sum::<u64>().max(1) as f64;
@@ -69,7 +69,7 @@ impl BondAngles {
     }
 }
 
-/// Angle between two vectors (rad), exact at its ends too, where the arc cosine is not.
+/// Angle between two vectors (rad), accurate near 0 and pi too, where the arc cosine is not.
 fn angle(one: Vector, other: Vector) -> f64 {
     libm::atan2(one.cross(other).norm(), one.dot(other))
 }
@@ -84,7 +84,7 @@ mod tests {
         high: [5.1; 3],
     };
 
-    /// Share of all angles, that are in the bin of this one (degrees).
+    /// Share of all angles in the bin of this angle (degrees).
     fn share(angles: &BondAngles, degrees: f64) -> f64 {
         let width = PI / angles.counts.len() as f64;
         let bin = (degrees.to_radians() / width) as usize;

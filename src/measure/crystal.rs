@@ -3,18 +3,19 @@
 use super::{CellGrid, Centres};
 use crate::particles::vector::Vector;
 
-/// Bonds of two neighbours are alike if their product is larger than this.
+/// Two neighbours have similar bonds if their product is larger than this.
 const ALIKE: f64 = 0.7;
-/// Neighbours with bonds alike that make a sphere solid-like.
+/// Number of neighbours with similar bonds that make a sphere solid-like.
 const FEWEST: usize = 8;
 
-/// Whether each sphere is part of a crystal, of any lattice: whether the directions of its bonds
-/// are like those of at least eight neighbours. Bonds are compared by the normalised product of
-/// the spherical harmonics of degree 6 (ten Wolde, Ruiz-Montero and Frenkel, Faraday Discussions
-/// 104, 93 (1996)); products of these are sums of Legendre polynomials P6 of the angles between the
-/// bonds of one sphere and those of the other.
+/// Whether each sphere is part of a crystal of any lattice: whether its bonds have directions
+/// similar to the bonds of at least eight neighbours. Bonds are compared by the normalised product
+/// of the spherical harmonics of degree 6 (ten Wolde, Ruiz-Montero and Frenkel, Faraday Discussions
+/// 104, 93 (1996)); these products are sums of Legendre polynomials P6 of the angles between the
+/// bonds of the two spheres.
 ///
-/// Of a random dense packing 1 % or less are, of a crystal all but those at its surface.
+/// In a random dense packing this holds for 1 % or less, in a crystal for all spheres but those at
+/// its surface.
 ///
 /// * `cutoff`: largest distance of a neighbour (m), usually 1.3 diameters
 pub fn solid_like(centres: &Centres, cutoff: f64) -> Vec<bool> {

@@ -1,51 +1,50 @@
-//! How far spheres stray from the mean flow.
+//! Diffusion of spheres about the mean flow.
 
 use super::bins::Bins;
 use super::blocks::{Blocks, quotient};
-use super::{Axis, Region};
+use super::{Region, SpaceAxis};
 use crate::particles::vector::Vector;
 use crate::simulation::Snapshot;
 use crate::statistics::Estimate;
 
-/// Fewest spheres of a bin that counts, as four constants are fitted to it.
+/// Least number of spheres in a bin that counts, because four constants are fitted to it.
 const FEWEST: f64 = 6.0;
 
-/// Share of a sum of squares that is left by rounding if nothing is.
+/// Share of a sum of squares that counts as zero, left by rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// Numbers of a sphere whose products are summed: 1, its place, its displacement.
+/// Numbers per sphere whose products are summed: 1, its place, its displacement.
 const NUMBERS: usize = 7;
 
-/// Those of them that make the mean flow: 1, the place.
+/// The first of them, which make the mean flow: 1, the place.
 const OF_FLOW: usize = 4;
 
-/// Displacements of spheres about the mean flow, over the distance that they drop meanwhile;
+/// Displacements of spheres about the mean flow, over the distance that they drop in the same time;
 /// several pairs of snapshots of a steady flow may be added.
 ///
-/// In bins of the places where spheres start, the mean flow is the linear function of the place
-/// that fits the displacements of all pairs best by least squares: a mean of the bin alone would
-/// take the shear of the flow for diffusion. The sum of squares about it is divided by the number
-/// of displacements less that of the fitted constants, four. Neighbours move together: the mean
-/// over few pairs takes a part of what is common to them with it. Ten pairs or more, of
-/// different times, leave nine tenths of that or more.
+/// In each bin of start places, the mean flow is the linear function of the place that fits the
+/// displacements of all pairs best by least squares: a constant mean per bin would count the shear
+/// of the flow as diffusion. The sum of squares about it is divided by the number of displacements
+/// minus four, the number of fitted constants. Neighbours move together: a mean flow from few pairs
+/// absorbs part of their common motion. Ten pairs or more, at different times, leave at least nine
+/// tenths of it.
 ///
-/// Slow dense flows diffuse with the distance dropped, not with time, and over short distances
-/// faster than later. The Peclet number is that of snapshots so far apart that it no longer depends
+/// Slow dense flows diffuse with the distance dropped, not with time, and faster over short
+/// distances than later. The Peclet number needs snapshots so far apart that it no longer depends
 /// on the distance (Choi, Kudrolli, Rosales and Bazant, Physical Review Letters 92, 174301 (2004)).
 ///
-/// Spheres that leave between the snapshots do not count, so that the region must not reach down
-/// to those that do. Intervals are those of a jackknife over at most ten blocks of consecutive
-/// pairs.
+/// Spheres that leave between the snapshots do not count, so the region must not include them.
+/// Intervals come from a jackknife over at most ten blocks of consecutive pairs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diffusion {
     bins: Bins,
-    /// Of each pair of snapshots the moments of all bins.
+    /// For each pair of snapshots the moments of all bins.
     rows: Vec<Vec<f64>>,
 }
 
 impl Diffusion {
     /// No displacements yet; bins of about this width (m), two to three diameters, divide the
-    /// region. Wider ones take the curvature of a velocity profile for diffusion.
+    /// region. Wider bins count the curvature of a velocity profile as diffusion.
     pub fn new(region: Region, width: f64) -> Self {
         let count = |axis: usize| {
             let count = ((region.high[axis] - region.low[axis]) / width).round();
@@ -82,18 +81,18 @@ impl Diffusion {
     }
 
     /// Mean square of the displacement about the mean flow along an axis (m2).
-    pub fn mean_square(&self, axis: Axis) -> Option<Estimate> {
+    pub fn mean_square(&self, axis: SpaceAxis) -> Option<Estimate> {
         self.estimate(|total| total.mean_square(axis))
     }
 
     /// Diffusivity along an axis over the mean velocity, D / V (m): mean square of the displacement
     /// over twice the distance dropped.
-    pub fn length(&self, axis: Axis) -> Option<Estimate> {
+    pub fn length(&self, axis: SpaceAxis) -> Option<Estimate> {
         self.estimate(|total| quotient(total.mean_square(axis)?, 2.0 * total.drop()?))
     }
 
-    /// Peclet number V d / D along an axis, of spheres of a diameter d (m).
-    pub fn peclet(&self, axis: Axis, diameter: f64) -> Option<Estimate> {
+    /// Peclet number V d / D along an axis, for spheres of a diameter d (m).
+    pub fn peclet(&self, axis: SpaceAxis, diameter: f64) -> Option<Estimate> {
         self.estimate(|total| quotient(2.0 * diameter * total.drop()?, total.mean_square(axis)?))
     }
 
@@ -105,11 +104,11 @@ impl Diffusion {
 /// Sums over all bins.
 #[derive(Clone, Copy, Debug, Default)]
 struct Total {
-    /// Of squares of the displacement along each axis about the mean flow (m2).
+    /// Squares of the displacement along each axis about the mean flow (m2).
     squares: [f64; 3],
-    /// Number by which they are divided.
+    /// Degrees of freedom by which they are divided.
     freedom: f64,
-    /// Of the distances dropped (m).
+    /// Distances dropped (m).
     drop: f64,
     spheres: f64,
 }
@@ -135,7 +134,7 @@ impl Total {
         total
     }
 
-    fn mean_square(&self, axis: Axis) -> Option<f64> {
+    fn mean_square(&self, axis: SpaceAxis) -> Option<f64> {
         quotient(self.squares[axis.index()], self.freedom)
     }
 
@@ -144,7 +143,7 @@ impl Total {
     }
 }
 
-/// Sums of the products of each two numbers of a sphere over the spheres of a bin.
+/// Sums, over the spheres of a bin, of the products of any two of a sphere's numbers.
 #[derive(Clone, Copy, Debug, Default)]
 struct Moments([[f64; NUMBERS]; NUMBERS]);
 
@@ -168,12 +167,12 @@ impl Moments {
     }
 
     /// Sums of squares of the displacement along each axis about its linear function of the place,
-    /// and the number of the constants of that. Axes along which the places do not differ, as the
-    /// depth of a plane flow, have no slope.
+    /// and the number of constants of this function. Axes along which the places do not differ,
+    /// such as the depth of a plane flow, have no slope.
     fn about_mean_flow(&self) -> ([f64; 3], f64) {
         let mut rest = self.0;
         let mut constants = 0.0;
-        // Gaussian elimination: each number of the flow takes its part of those after it.
+        // Gaussian elimination: each number of the flow is projected out of those after it.
         for own in 0..OF_FLOW {
             let pivot = rest[own];
             if pivot[own] <= ROUNDING * self.0[own][own] {
@@ -201,8 +200,8 @@ mod tests {
         high: [10.0, 4.0, 70.0],
     };
 
-    /// Spheres that drift by a mean displacement of their place, and walk at random with a standard
-    /// deviation along each axis.
+    /// Spheres with a mean displacement that depends on the place, plus a random walk with a
+    /// standard deviation along each axis.
     fn walk(
         random: &mut Random,
         count: usize,
@@ -239,10 +238,13 @@ mod tests {
                 usize::from((it.value - value).abs() < it.half_width)
             };
             let square = |axis: usize| deviation[axis] * deviation[axis];
-            covered[0] += covers(diffusion.mean_square(Axis::Y).unwrap(), square(1));
-            covered[1] += covers(diffusion.length(Axis::X).unwrap(), square(0) / (2.0 * fall));
+            covered[0] += covers(diffusion.mean_square(SpaceAxis::Y).unwrap(), square(1));
+            covered[1] += covers(
+                diffusion.length(SpaceAxis::X).unwrap(),
+                square(0) / (2.0 * fall),
+            );
             covered[2] += covers(
-                diffusion.peclet(Axis::Z, 1.0).unwrap(),
+                diffusion.peclet(SpaceAxis::Z, 1.0).unwrap(),
                 2.0 * fall / square(2),
             );
             covered[3] += covers(diffusion.drop().unwrap(), fall);
@@ -264,7 +266,8 @@ mod tests {
             let [before, after] = walk(&mut random, 60_000, sheared, deviation);
             let mut diffusion = Diffusion::new(REGION, 2.0);
             diffusion.add(&before, &after);
-            [Axis::X, Axis::Y, Axis::Z].map(|axis| diffusion.mean_square(axis).unwrap().value)
+            [SpaceAxis::X, SpaceAxis::Y, SpaceAxis::Z]
+                .map(|axis| diffusion.mean_square(axis).unwrap().value)
         };
         for square in squares([0.0; 3]) {
             assert!(square.abs() < 1e-12, "{square}");
@@ -284,11 +287,15 @@ mod tests {
         }
         let mut diffusion = Diffusion::new(REGION, 2.0);
         diffusion.add(&before, &after);
-        for (axis, expected) in [(Axis::X, 0.01), (Axis::Y, 0.0), (Axis::Z, 0.01)] {
+        for (axis, expected) in [
+            (SpaceAxis::X, 0.01),
+            (SpaceAxis::Y, 0.0),
+            (SpaceAxis::Z, 0.01),
+        ] {
             let square = diffusion.mean_square(axis).unwrap().value;
             assert!((square - expected).abs() < 3e-4, "{axis:?}: {square}");
         }
-        assert_eq!(diffusion.peclet(Axis::Y, 1.0), None);
+        assert_eq!(diffusion.peclet(SpaceAxis::Y, 1.0), None);
     }
 
     #[test]
@@ -297,7 +304,7 @@ mod tests {
         let [before, after] = walk(&mut random, 20, |_| [0.0, 0.0, -1.0], [0.1; 3]);
         let mut diffusion = Diffusion::new(REGION, 1.0);
         diffusion.add(&before, &after);
-        assert_eq!(diffusion.peclet(Axis::X, 1.0), None);
+        assert_eq!(diffusion.peclet(SpaceAxis::X, 1.0), None);
         assert_eq!(diffusion.drop(), None);
     }
 }

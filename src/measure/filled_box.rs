@@ -1,7 +1,7 @@
-//! A box filled with spheres, and its parts in which drainages are measured.
+//! A box filled with spheres, and the regions in which drainages are measured.
 
 use super::voronoi::reach_of_cells;
-use super::{Centres, Region, Walls, voronoi_cells};
+use super::{CellBounds, Centres, Region, voronoi_cells};
 use crate::simulation::Snapshot;
 use std::f64::consts::PI;
 
@@ -21,7 +21,7 @@ pub struct FilledBox {
 }
 
 impl FilledBox {
-    /// A box with spheres of this diameter in it as in a first snapshot.
+    /// A box filled with spheres of this diameter as in a first snapshot.
     ///
     /// * `reach`: from the axis to the walls along x and along y (m)
     pub fn new(reach: [f64; 2], floor: f64, diameter: f64, start: &Snapshot) -> Self {
@@ -37,7 +37,7 @@ impl FilledBox {
         }
     }
 
-    /// A part of the box about its axis: as wide as `across` of its width, over all of its depth,
+    /// A part of the box about its axis: the share `across` of its width, all of its depth, and
     /// between two shares of the height to which it was filled.
     pub fn part(&self, across: f64, heights: [f64; 2]) -> Region {
         let [low, high] = heights.map(|share| self.floor + share * self.filled);
@@ -48,21 +48,21 @@ impl FilledBox {
         }
     }
 
-    /// Where packings are measured, the middle of the lower half: -15 d < x < 15 d and
-    /// 15 d < z < 45 d in Rycroft, Wong and Bazant (2010), over the half width of their box and the
-    /// height of its packing.
+    /// The region in which packings are measured, the middle of the lower half: -15 d < x < 15 d
+    /// and 15 d < z < 45 d in Rycroft, Wong and Bazant (2010), scaled by the half width of the box
+    /// and the height of its packing.
     pub fn middle(&self) -> Region {
         self.part(0.6, [0.14, 0.41])
     }
 
     /// Volume of the spheres in the middle over the volume of their Voronoi cells, which end at the
-    /// walls and, at the free surface, near the spheres. None without spheres in the middle.
+    /// walls and, at the free surface, near the spheres. `None` without spheres in the middle.
     pub fn packing_fraction(&self, state: &Snapshot) -> Option<f64> {
         let centres = Centres::of(state);
         let region = self.middle();
         let heights = centres.place.iter().map(|it| it.z);
         let top = heights.fold(self.floor + self.filled, f64::max);
-        let walls = Walls {
+        let walls = CellBounds {
             low: [-self.half_width, -self.half_depth, self.floor],
             high: [self.half_width, self.half_depth, top + 0.5 * self.diameter],
             farthest: reach_of_cells(&centres, &region, self.diameter),
@@ -77,7 +77,7 @@ impl FilledBox {
         (!volumes.is_empty()).then(|| spheres / volumes.iter().sum::<f64>())
     }
 
-    /// Where mixing is measured: the lower half.
+    /// The region in which mixing is measured: the lower half.
     pub fn lower_half(&self) -> Region {
         self.part(1.0, [0.0, 0.5])
     }

@@ -1,20 +1,20 @@
-//! How wide a flow is, and how fast it widens upwards.
+//! The width of a flow, and how fast it grows upwards.
 
 use super::VelocityProfile;
 use super::blocks::Blocks;
 use crate::statistics::Estimate;
 
-/// Widths that are tried before the best of them is refined.
+/// Number of widths that are tried before the best is refined.
 const TRIALS: u32 = 48;
 
-/// Largest width that is told from a flat profile, over the farthest place.
+/// Largest width that is distinguished from a flat profile, over the farthest place.
 const WIDEST: f64 = 4.0;
 
-/// The same between walls that reflect, over their distance from the middle: the profile is flat
+/// The same between reflecting walls, over their distance from the middle: the profile is flat
 /// within .2 %.
 const WIDEST_BETWEEN_WALLS: f64 = 1.2;
 
-/// Relative size of the interval in which a refined width is known.
+/// Relative accuracy of a refined width.
 const PRECISION: f64 = 1e-8;
 
 /// Images farther away than this many widths are left out: they add less than 1e-10.
@@ -32,10 +32,10 @@ pub struct FlowWidth {
 }
 
 impl FlowWidth {
-    /// The velocity (m/s) of the fit at a place (m), with images in the same walls as of the fit.
+    /// The velocity (m/s) of the fit at a place (m), with images in the same walls as in the fit.
     pub fn velocity(&self, place: f64, half_width: Option<f64>) -> f64 {
         let width = self.width.value;
-        self.amplitude.value * Shape { width, half_width }.at(place)
+        self.amplitude.value * GaussianShape { width, half_width }.at(place)
     }
 }
 
@@ -52,14 +52,14 @@ pub struct FlowSpread {
 ///
 /// * `half_width`: side walls at x = -half_width and half_width (m) that reflect what spreads, so
 ///   that the images of the Gaussian in both walls are added to it. A Gaussian without images
-///   (none) is too wide where the flow reaches the walls: in sigma^2 by 2 % at a sigma of .38
+///   (`None`) is too wide if the flow reaches the walls: in sigma^2 by 2 % at a sigma of .38
 ///   half_width, and by 30 % at .54.
 ///
 /// Bins of width h show the profile as wider by h^2 / 12 in sigma^2, which is subtracted (Sheppard,
-/// Proceedings of the London Mathematical Society 29, 353 (1898)). Intervals are those of the
-/// profile: of a jackknife over blocks of pairs of snapshots.
+/// Proceedings of the London Mathematical Society 29, 353 (1898)). Intervals come, as for the
+/// profile, from a jackknife over blocks of pairs of snapshots.
 ///
-/// None if the profile has no width: if it is flat, or narrower than a bin.
+/// `None` if the profile has no width: if it is flat, or narrower than a bin.
 pub fn flow_width(profile: &VelocityProfile, half_width: Option<f64>) -> Option<FlowWidth> {
     let blocks = Blocks::of(profile.rows());
     let [amplitude, width] = blocks.estimates(|sums| {
@@ -75,12 +75,12 @@ pub fn flow_width(profile: &VelocityProfile, half_width: Option<f64>) -> Option<
 
 /// Fits b and z0 to the profiles over x of layers at several heights, each by [`flow_width`]: the
 /// law of the kinematic model, Nedderman and Tüzün, Powder Technology 22, 243 (1979). The
-/// regression has the weights 1 / sigma^4, as of widths with one relative error.
+/// regression has the weights 1 / sigma^4, for widths with equal relative errors.
 ///
 /// A fluctuation of the flow rises through all layers. The jackknife therefore leaves out a block
 /// of pairs of snapshots in all of them at once, and needs the same pairs in each.
 ///
-/// None without two layers of different height, or if a layer has no width.
+/// `None` without two layers of different height, or if a layer has no width.
 pub fn flow_spread(layers: &[VelocityProfile], half_width: Option<f64>) -> Option<FlowSpread> {
     let pairs = layers.first()?.rows().len();
     if layers.iter().any(|it| it.rows().len() != pairs) {
@@ -132,8 +132,8 @@ struct Gaussian {
     width_squared: f64,
 }
 
-/// The Gaussian of least squares. For a given width the best amplitude is known, so that only the
-/// width is searched for: over a wide range in equal ratios, and around the best by golden section.
+/// The Gaussian of least squares. For a given width the best amplitude follows, so only the width
+/// is searched for: over a wide range in equal ratios, then around the best by golden section.
 fn fit(profile: &VelocityProfile, half_width: Option<f64>, sums: &[f64]) -> Option<Gaussian> {
     let point = |bin| Some([profile.place(bin), profile.velocity(sums, bin)?]);
     let points: Vec<[f64; 2]> = (0..profile.bins()).filter_map(point).collect();
@@ -142,7 +142,7 @@ fn fit(profile: &VelocityProfile, half_width: Option<f64>, sums: &[f64]) -> Opti
     let most = half_width.map_or(WIDEST * farthest, |it| WIDEST_BETWEEN_WALLS * it);
     let ratio = libm::pow(most / least, 1.0 / f64::from(TRIALS));
     let width = |trial: u32| least * libm::pow(ratio, f64::from(trial));
-    let project = |width: f64| Projection::of(&points, &Shape { width, half_width });
+    let project = |width: f64| Projection::of(&points, &GaussianShape { width, half_width });
     let explained = |trial: &u32| project(width(*trial)).explained();
     let best = (0..=TRIALS).max_by(|one, other| explained(one).total_cmp(&explained(other)))?;
     if best == 0 || best == TRIALS {
@@ -160,12 +160,12 @@ fn fit(profile: &VelocityProfile, half_width: Option<f64>, sums: &[f64]) -> Opti
 }
 
 /// A Gaussian of amplitude 1, and its images in the walls if there are any (m).
-struct Shape {
+struct GaussianShape {
     width: f64,
     half_width: Option<f64>,
 }
 
-impl Shape {
+impl GaussianShape {
     fn at(&self, place: f64) -> f64 {
         let gaussian = |place: f64| {
             let deviations = place / self.width;
@@ -190,7 +190,7 @@ struct Projection {
 }
 
 impl Projection {
-    fn of(points: &[[f64; 2]], shape: &Shape) -> Self {
+    fn of(points: &[[f64; 2]], shape: &GaussianShape) -> Self {
         let (mut product, mut norm) = (0.0, 0.0);
         for [place, velocity] in points {
             let value = shape.at(*place);
@@ -206,7 +206,7 @@ impl Projection {
 
     /// By how much the best amplitude lowers the sum of squares.
     fn explained(&self) -> f64 {
-        // No place is within reach of a narrow shape.
+        // A narrow shape may reach no place.
         if self.norm == 0.0 {
             return 0.0;
         }
@@ -214,7 +214,7 @@ impl Projection {
     }
 }
 
-/// Where a function with one maximum between two ends has it.
+/// The maximum of a unimodal function between two ends.
 fn golden_section([mut low, mut high]: [f64; 2], value: impl Fn(f64) -> f64) -> f64 {
     let share = 0.5 * (5.0_f64.sqrt() - 1.0);
     while high - low > PRECISION * high {
@@ -232,7 +232,7 @@ fn golden_section([mut low, mut high]: [f64; 2], value: impl Fn(f64) -> f64) -> 
 mod tests {
     use super::*;
     use crate::measure::synthetic::{Random, falling};
-    use crate::measure::{Axis, Region};
+    use crate::measure::{Region, SpaceAxis};
 
     const HALF_WIDTH: f64 = 25.0;
     const WALLS: Option<f64> = Some(HALF_WIDTH);
@@ -246,7 +246,7 @@ mod tests {
         };
         let heights = [10.0, 20.0, 30.0, 40.0].into_iter();
         heights
-            .map(|height| VelocityProfile::new(Axis::X, layer(height), bins))
+            .map(|height| VelocityProfile::new(SpaceAxis::X, layer(height), bins))
             .collect()
     }
 

@@ -3,7 +3,7 @@
 use crate::particles::vector::Vector;
 use crate::simulation::Snapshot;
 
-/// The centres of spheres that are there, and their numbers in the scene.
+/// The centres of the spheres that are in, and their numbers in the scene.
 #[derive(Clone, Debug, Default)]
 pub struct Centres {
     /// Centres (m).
@@ -33,12 +33,12 @@ pub struct CellGrid<'a> {
     corner: Vector,
     width: f64,
     sizes: [usize; 3],
-    /// Where the spheres of each cell begin in `order`, and where the last ends.
+    /// Where the spheres of each cell begin in `order`, and where the last cell ends.
     start: Vec<u32>,
     order: Vec<u32>,
 }
 
-/// Most cells per centre: wider cells do where centres are far apart.
+/// Largest number of cells per centre: wider cells suffice if centres are far apart.
 const CELLS_PER_CENTRE: f64 = 4.0;
 
 impl<'a> CellGrid<'a> {
@@ -114,7 +114,7 @@ impl<'a> CellGrid<'a> {
     }
 
     /// Calls `found` with the index of every centre at most `distance` (m) from a place, and with
-    /// the vector to it from there.
+    /// the vector from the place to it.
     pub fn within(&self, place: Vector, distance: f64, mut found: impl FnMut(usize, Vector)) {
         if self.place.is_empty() {
             return;

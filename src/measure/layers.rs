@@ -1,10 +1,10 @@
-//! Horizontal layers by which spheres are told apart.
+//! Horizontal layers that mark spheres.
 
 use crate::simulation::Snapshot;
 
-/// Layers of one thickness, in two colours by turns. Spheres keep the layer in which they start, so
-/// that its shape shows the flow, and its edge the mixing (Rycroft, Wong and Bazant, 2010, figure
-/// 3, with layers of 10 d).
+/// Layers of equal thickness, in two alternating colours. Spheres keep the layer in which they
+/// start, so that its shape shows the flow, and its edge the mixing (Rycroft, Wong and Bazant,
+/// 2010, figure 3, with layers of 10 d).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Layers {
     /// Where the lowest layer begins (m).
@@ -22,12 +22,12 @@ impl Layers {
         }
     }
 
-    /// The layer at a height (m), from 0 at the floor; what is below the floor belongs to it.
+    /// The layer at a height (m), from 0 at the floor; heights below the floor belong to layer 0.
     pub fn layer(&self, height: f64) -> usize {
         ((height - self.floor) / self.thickness) as usize
     }
 
-    /// The colour of a layer: 0 for the lowest, 1 for the one above it, and so on by turns.
+    /// The colour of a layer: 0 for the lowest, 1 for the next, and so on alternately.
     pub fn color(layer: usize) -> usize {
         layer % 2
     }

@@ -9,18 +9,18 @@ use super::{Centres, Layers, Region};
 /// M = (S0^2 - S^2) / (S0^2 - Sr^2), S0^2 = p q, Sr^2 = p q / n
 ///
 /// p and q = 1 - p are the shares of the colours in the whole region, S0^2 the variance over cells
-/// of unmixed layers, and Sr^2 that of spheres at random, n in a cell. S^2 is the measured one,
-/// with the number of spheres in a cell as its weight: the index of spheres at random is then 1 on
-/// average also where the numbers differ, with their mean n over the cells that are not empty, and
+/// of unmixed layers, and Sr^2 the variance of random spheres, n in a cell. S^2 is the measured
+/// variance, weighted by the number of spheres in a cell: the index of random spheres is then 1 on
+/// average even if the numbers differ (n is their mean over the cells that are not empty), and
 /// cells with few spheres count little.
 ///
-/// Of layers that no cell straddles it is 0, however they are bent: mixing on scales below that of
-/// a cell is what counts. Of spheres at random it may exceed 1 by chance.
+/// The index is 0 for layers that no cell straddles, however they are bent: only mixing below the
+/// scale of a cell counts. For random spheres it may exceed 1 by chance.
 ///
-/// * `layers`: the layer of each sphere of the scene; those without one do not count
+/// * `layers`: the layer of each sphere of the scene; spheres without one do not count
 /// * `cells`: number of cells along each axis, one or more
 ///
-/// None if the region holds one colour only, or one sphere per cell.
+/// `None` if the region holds only one colour, or one sphere per cell.
 pub fn lacey_index(
     centres: &Centres,
     layers: &[Option<usize>],
@@ -31,7 +31,7 @@ pub fn lacey_index(
         region: *region,
         counts: cells,
     };
-    // Numbers of spheres in each cell, and of those of the second colour.
+    // Numbers of all spheres and of the second colour in each cell.
     let mut counts = vec![[0.0; 2]; bins.len()];
     for (place, number) in centres.place.iter().zip(&centres.number) {
         let layer = layers.get(*number).copied().flatten();
@@ -97,7 +97,7 @@ mod tests {
         }
     }
 
-    /// Cells through which an edge runs in the middle are as if mixed.
+    /// Cells halved by an edge count as mixed.
     #[test]
     fn cells_that_straddle_an_edge_are_mixed() {
         let gas = ideal_gas(12_000, 40.0, "straddled edges");

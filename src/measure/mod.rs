@@ -1,4 +1,4 @@
-//! What is measured of snapshots: positions and radii, whichever model made them.
+//! Measurements on snapshots (positions and radii) of any model.
 
 mod axis;
 mod badness;
@@ -27,7 +27,7 @@ mod velocity_correlation;
 mod velocity_profile;
 mod voronoi;
 
-pub use axis::Axis;
+pub use axis::SpaceAxis;
 pub use badness::Badness;
 pub use bond_angles::BondAngles;
 pub use crystal::solid_like;
@@ -47,4 +47,4 @@ pub use stagnant::stagnant_height;
 pub use surface::surface_angle;
 pub use velocity_correlation::VelocityCorrelation;
 pub use velocity_profile::{ProfilePoint, VelocityProfile};
-pub use voronoi::{VoronoiCell, Walls, local_packing_fraction, voronoi_cells};
+pub use voronoi::{CellBounds, VoronoiCell, local_packing_fraction, voronoi_cells};

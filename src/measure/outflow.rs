@@ -6,17 +6,17 @@ use crate::statistics::Estimate;
 
 /// Spheres that leave per time (1/s) within a window.
 ///
-/// * `time`: in growing order (s)
+/// * `time`: ascending (s)
 /// * `left`: number of spheres that had left by each of these times
 /// * `window`: first and last time that count (s)
 ///
 /// The rate is the number that left between the ends, over the time. For independent departures no
-/// estimate scatters less; the slope of the line of least squares scatters by a tenth more. The
-/// interval is that of a jackknife over ten blocks of time, so that departures may be correlated.
-/// With a correlation time of a hundredth of the window, 94 % of intervals cover the rate; with a
+/// estimate scatters less; the slope of a least-squares line scatters a tenth more. The interval
+/// comes from a jackknife over ten blocks of time, so departures may be correlated. With a
+/// correlation time of a hundredth of the window, 94 % of intervals cover the rate; with a
 /// fiftieth, 93 %.
 ///
-/// None if fewer than two times are in the window.
+/// `None` if fewer than two times are in the window.
 pub fn outflow_rate(time: &[f64], left: &[f64], window: [f64; 2]) -> Option<Estimate> {
     let series = time.iter().zip(left);
     let inside = series.filter(|(time, _)| window[0] <= **time && **time <= window[1]);
@@ -26,7 +26,7 @@ pub fn outflow_rate(time: &[f64], left: &[f64], window: [f64; 2]) -> Option<Esti
     Blocks::of(&rows).estimate(|sums| quotient(sums[0], sums[1]))
 }
 
-/// Number of the spheres of the first snapshot that are no longer there, for each snapshot.
+/// Number of spheres of the first snapshot that have left, for each snapshot.
 pub fn count_left(snapshots: &[Snapshot]) -> Vec<f64> {
     let there = |snapshot: &Snapshot| {
         let rows = snapshot.position.rows().into_iter();
@@ -50,7 +50,7 @@ mod tests {
     const FRAMES: usize = 150;
     const SERIES: usize = 400;
 
-    /// Numbers that have left, of Poisson departures at the rates of each interval.
+    /// Numbers of spheres that have left, for Poisson departures at the rates of each interval.
     fn poisson(random: &mut Random, rates: impl Iterator<Item = f64>) -> [Vec<f64>; 2] {
         let (mut time, mut left) = (vec![0.0], vec![0.0]);
         for (frame, rate) in rates.enumerate() {

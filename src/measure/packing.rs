@@ -12,24 +12,23 @@ const DEPTH: f64 = 2.0;
 /// Distance from all fixed spheres from which the heap counts, in mean diameters.
 const MARGIN: f64 = 1.0;
 
-/// Least area that says anything, in squares of the mean diameter.
+/// Least meaningful area, in squares of the mean diameter.
 const LEAST_AREA: f64 = 10.0;
 
-/// Packing fraction of grains in the plane y = 0: the area of the discs pi r^2 that lies in the
-/// inside of the heap, over the area of that inside. What two discs share by their overlap counts
-/// for both.
+/// Packing fraction of grains in the plane y = 0: the area of the discs inside the heap over the
+/// area of this inside. Overlaps of two discs count for both.
 ///
-/// The inside leaves out what walls and free surface order or cut: of every vertical line it is
-/// what lies between the lowest and two diameters below the highest of the centres that are at most
-/// half a diameter beside the line, and at least one diameter from the surface of every fixed
-/// sphere (diameter: the mean of the grains). Lines are a fiftieth of a diameter apart; along a
-/// line everything is exact.
+/// The inside excludes the regions that walls and free surface order or cut. Along every vertical
+/// line it reaches from the lowest centre within half a diameter of the line to two diameters below
+/// the highest such centre, and it keeps one diameter from the surface of every fixed sphere
+/// (diameter: the mean of the grains). Lines are a fiftieth of a diameter apart; along a line
+/// everything is exact.
 ///
 /// * `position`: centres (m), n x 3
 /// * `radius`: radii (m), n
 /// * `fixed`: walls, and the door if it is closed
 ///
-/// None if a grain is off the plane or the inside is smaller than ten squares of the diameter.
+/// `None` if a grain is off the plane or the inside is smaller than ten squares of the diameter.
 pub fn packing_fraction(
     position: ArrayView2<'_, f64>,
     radius: &[f64],
@@ -107,14 +106,14 @@ impl Discs {
         Some((self.discs.first()?[0], self.discs.last()?[0]))
     }
 
-    /// Discs whose centres are at most this far beside the vertical line at x.
+    /// Discs whose centres are at most this far from the vertical line at x.
     fn within(&self, x: f64, distance: f64) -> impl Iterator<Item = &[f64; 3]> {
         let first = self.discs.partition_point(|disc| disc[0] < x - distance);
         let near = self.discs[first..].iter();
         near.take_while(move |disc| disc[0] <= x + distance)
     }
 
-    /// Where discs cover the vertical line at x: ends of the chords, the lower first.
+    /// Chords of the discs on the vertical line at x, the lower end first.
     fn chords(&self, x: f64) -> impl Iterator<Item = [f64; 2]> {
         self.within(x, self.largest)
             .filter_map(move |[at, z, radius]| {
@@ -131,8 +130,7 @@ mod tests {
     use ndarray::Array2;
     use std::f64::consts::PI;
 
-    /// Discs of radius 1 in columns and rows, a row above the other by `rise`, every second one
-    /// shifted.
+    /// Discs of radius 1 in columns and rows at distances of `rise`, every second row shifted.
     fn lattice(columns: usize, rows: usize, pitch: f64, rise: f64, shift: f64) -> Array2<f64> {
         Array2::from_shape_fn((columns * rows, 3), |(index, axis)| {
             let (column, row) = (index % columns, index / columns);

@@ -1,4 +1,4 @@
-//! Convex polyhedra that planes cut smaller, about the origin.
+//! Convex polyhedra about the origin, cut by planes.
 
 use crate::particles::vector::Vector;
 
@@ -16,12 +16,11 @@ pub(super) struct Polyhedron {
     faces: Vec<Face>,
 }
 
-/// Corners count as on a plane that are nearer than this share of the size of the polyhedron.
+/// Corners nearer to a plane than this share of the polyhedron's size count as on it.
 const ON_PLANE: f64 = 1e-12;
 
 impl Polyhedron {
-    /// The box between these distances from the origin along x, y and z: below it, negative, and
-    /// above it.
+    /// The box between these coordinates along x, y and z, `low` negative and `high` positive.
     pub(super) fn of_box(low: [f64; 3], high: [f64; 3]) -> Self {
         let corner = |bits: [usize; 3]| {
             let side = |axis: usize| [low, high][bits[axis]][axis];
@@ -121,7 +120,8 @@ impl Face {
     }
 }
 
-/// The corners of a face in order around its normal, each once; none if they are fewer than three.
+/// The corners of a face in order around its normal, each once; `None` if there are fewer than
+/// three.
 fn around(corners: Vec<Vector>, normal: Vector, near: f64) -> Option<Vec<Vector>> {
     if corners.len() < 3 {
         return None;

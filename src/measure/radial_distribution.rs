@@ -1,4 +1,4 @@
-//! How far apart spheres are: the radial distribution function.
+//! The radial distribution function.
 
 use super::{CellGrid, Centres, Region};
 use std::f64::consts::PI;
@@ -12,12 +12,12 @@ pub struct RadialDistribution {
     counts: Vec<u64>,
     /// Number of central spheres.
     centres: u64,
-    /// Central spheres per volume (1/m3), summed over snapshots with the number of these as weight.
+    /// Central spheres per volume (1/m3), summed over snapshots, weighted by their number.
     density: f64,
 }
 
 impl RadialDistribution {
-    /// No distances yet; up to `farthest` (m), in so many bins.
+    /// No distances yet; up to `farthest` (m), in `bins` bins.
     pub fn new(farthest: f64, bins: usize) -> Self {
         Self {
             width: farthest / bins as f64,
@@ -48,9 +48,9 @@ impl RadialDistribution {
         self.density += count as f64 * count as f64 / region.volume();
     }
 
-    /// The distance at the middle of each bin (m), and g there: the number of partners over that
-    /// of spheres spread at random with the density of the region. Partners beyond walls lack, so
-    /// that g falls below 1 at distances that reach out of the box.
+    /// The distance at the middle of each bin (m), and g there: the number of partners over the
+    /// number for randomly spread spheres with the density of the region. There are no partners
+    /// beyond walls, so g falls below 1 at distances that reach out of the box.
     pub fn values(&self) -> Vec<[f64; 2]> {
         let density = self.density / self.centres.max(1) as f64;
         let value = |(bin, count): (usize, &u64)| {
@@ -67,7 +67,7 @@ impl RadialDistribution {
         self.counts.iter().enumerate().map(value).collect()
     }
 
-    /// Mean number of partners nearer than a distance (m), of whole bins.
+    /// Mean number of partners nearer than a distance (m), for whole bins.
     pub fn partners_within(&self, distance: f64) -> f64 {
         let bins = (distance / self.width).round() as usize;
         let partners: u64 = self.counts.iter().take(bins).sum();

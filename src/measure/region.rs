@@ -7,7 +7,7 @@ use crate::particles::vector::Vector;
 pub struct Region {
     /// The corner with the least coordinates (m).
     pub low: [f64; 3],
-    /// The corner with the largest ones (m).
+    /// The corner with the largest coordinates (m).
     pub high: [f64; 3],
 }
 

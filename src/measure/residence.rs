@@ -6,7 +6,7 @@ use crate::particles::vector::Vector;
 use crate::simulation::Snapshot;
 use ndarray::Array2;
 
-/// How long the spheres of a first snapshot stay; snapshots are added in the order of time.
+/// Residence times of the spheres in a first snapshot; snapshots are added in the order of time.
 #[derive(Clone, Debug)]
 pub struct Residence {
     /// Times of all snapshots (s).
@@ -26,17 +26,17 @@ pub struct ResidenceTimes {
     pub height: f64,
     /// Number of spheres that start there.
     pub spheres: usize,
-    /// Number of those that left.
+    /// Number of them that left.
     pub left: usize,
-    /// Mean time (s); none as long as a sphere is left.
+    /// Mean time (s); `None` while a sphere is left.
     pub mean: Option<f64>,
-    /// Times (s) by which a quarter, half and three quarters of the spheres left; none of what had
-    /// not left.
+    /// Times (s) by which a quarter, half and three quarters of the spheres left; `None` if they
+    /// have not.
     pub quartiles: [Option<f64>; 3],
 }
 
 impl Residence {
-    /// Spheres at their start; what comes later does not count.
+    /// Spheres at their start; spheres that come later do not count.
     pub fn new(start: &Snapshot) -> Self {
         Self {
             times: vec![start.time],
@@ -57,7 +57,7 @@ impl Residence {
     }
 
     /// Time (s) from the first snapshot until each sphere left: the middle between the last
-    /// snapshot in which it is and the next. None if it has not left, or was never there.
+    /// snapshot that contains it and the next. `None` if it has not left, or was never there.
     pub fn times(&self) -> Vec<Option<f64>> {
         let missing = self.missing.iter();
         missing.map(|it| it.map(|it| self.residence(it))).collect()
@@ -116,7 +116,7 @@ impl Residence {
 }
 
 impl ResidenceTimes {
-    /// Of times (s), one or more, infinite ones of spheres that have not left.
+    /// From one or more times (s), infinite for spheres that have not left.
     fn of(distance: f64, height: f64, mut times: Vec<f64>) -> Self {
         times.sort_by(f64::total_cmp);
         let spheres = times.len();
@@ -140,8 +140,8 @@ mod tests {
     use super::*;
     use crate::measure::synthetic::snapshot;
 
-    /// Columns of eight spheres at x = -1.5, 1.5 and 4.5; of each the lowest leaves first, one per
-    /// second, from the right one none.
+    /// Columns of eight spheres at x = -1.5, 1.5 and 4.5. In the left two the lowest leaves first,
+    /// one per second; in the right one none leaves.
     fn drain(seconds: usize) -> Residence {
         let at = |second: usize| {
             let places = (0..24).map(|sphere| {

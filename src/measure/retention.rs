@@ -16,7 +16,7 @@ pub struct NeighbourRetention {
     bonds: Vec<[usize; 2]>,
 }
 
-/// What is kept by spheres that dropped about as far.
+/// Neighbours kept by spheres that dropped about equally far.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Retained {
     /// Mean distance that they dropped (m), a sphere counting with each of its neighbours.
@@ -51,15 +51,15 @@ impl NeighbourRetention {
         }
     }
 
-    /// Which neighbours are kept at a later snapshot, of pairs of spheres that are both still
-    /// there, in bins of the distance that the sphere in the region has dropped: of this width (m),
-    /// from below 0 up. Bins without pairs are left out.
+    /// Neighbours kept at a later snapshot, among pairs of spheres that are both still there, in
+    /// bins of this width (m) of the distance that the sphere in the region has dropped, which may
+    /// be negative. Bins without pairs are left out.
     pub fn by_drop(&self, later: &Snapshot, width: f64) -> Vec<Retained> {
         let rows = later.position.rows().into_iter();
         let later: Vec<Vector> = rows
             .map(|row| Vector::new(row[0], row[1], row[2]))
             .collect();
-        // By bins: sums of the distances dropped, numbers of neighbours, of those that are kept.
+        // By bins: sums of the distances dropped, numbers of neighbours, numbers that are kept.
         let mut bins: BTreeMap<i64, (f64, usize, usize)> = BTreeMap::new();
         for &[own, other] in &self.bonds {
             let (Some(place), Some(partner)) = (later.get(own), later.get(other)) else {
@@ -113,7 +113,7 @@ mod tests {
             neighbours: 384,
         };
         assert_eq!(same, expected);
-        // What is right of x = 3.5 falls by 2.25: at the plane each sphere loses one of six.
+        // Spheres right of x = 3.5 fall by 2.25: at the plane each sphere loses one of six.
         let fall = |it: &[f64; 3]| [it[0], it[1], it[2] - if it[0] > 3.5 { 2.25 } else { 0.0 }];
         let later: Vec<[f64; 3]> = start.iter().map(fall).collect();
         let bins = retention.by_drop(&snapshot(1.0, &later), 1.0);
@@ -122,7 +122,7 @@ mod tests {
             [0.0, 2.25]
         );
         for bin in bins {
-            // Of 32 spheres in two layers those of one are at the plane.
+            // Of the 32 spheres in two layers, one layer is at the plane.
             assert_eq!((bin.neighbours, bin.share), (192, 176.0 / 192.0));
         }
     }

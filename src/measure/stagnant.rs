@@ -1,4 +1,4 @@
-//! Corners in which nothing moves.
+//! Stagnant corners.
 
 use crate::simulation::Snapshot;
 
@@ -6,9 +6,9 @@ use crate::simulation::Snapshot;
 const STRIP: f64 = 2.0;
 
 /// Height (m) up to which the spheres along the side walls x = -half_width and half_width are
-/// stagnant: of layers of a diameter, from the floor at `floor` up, how many hold spheres of which
-/// at most half sank by more than a diameter between two snapshots. Those that were pushed aside or
-/// up take no part in the flow.
+/// stagnant: the number of layers of one diameter, from `floor` up, in which at most half of the
+/// spheres sank by more than a diameter between two snapshots. Spheres that were pushed aside or up
+/// do not count as flowing.
 ///
 /// * `diameter`: of the spheres (m)
 ///
@@ -68,7 +68,7 @@ mod tests {
         }
         let height = stagnant_height(&before, &after, 1.0, 10.0, 2.0);
         assert_eq!(height, 7.0);
-        // Symptom: corners that spots had pushed up by more than a diameter passed for flow.
+        // Symptom: corners that spots had pushed up by more than a diameter counted as flowing.
         let mut pushed = before.clone();
         pushed
             .position

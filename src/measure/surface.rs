@@ -7,11 +7,11 @@ const COLUMNS: usize = 10;
 /// Width of a column, in diameters.
 const WIDTH: f64 = 2.5;
 
-/// Slope of the free surface (rad), positive where it rises from the middle to the walls: the
+/// Slope of the free surface (rad), positive if it rises from the middle to the walls: the
 /// regression of the largest heights z_j in columns | |x| - x_j | < 1.25 d, at x_j = (2.5 j - 1.25)
 /// d for j = 1 to 10, or as many as the half width (m) of the box has room for.
 ///
-/// None if fewer than three columns have a sphere.
+/// `None` if fewer than three columns have a sphere.
 pub fn surface_angle(centres: &Centres, diameter: f64, half_width: f64) -> Option<f64> {
     let width = WIDTH * diameter;
     let columns = ((half_width / width + 1e-9) as usize).min(COLUMNS);

@@ -1,4 +1,4 @@
-//! Spheres of which measures are known, for tests.
+//! Spheres with known measures, for tests.
 
 use super::Centres;
 use crate::particles::vector::Vector;
@@ -51,8 +51,8 @@ pub(super) fn snapshot(time: f64, places: &[[f64; 3]]) -> Snapshot {
     }
 }
 
-/// Two snapshots half a second apart, of spheres at random in a box with these sides in the middle
-/// of their way, that fall at a speed of their place.
+/// Two snapshots, half a second apart, of random spheres in a box with these sides that fall at a
+/// speed that depends on the place. They are at that place half way.
 pub(super) fn falling(
     random: &mut Random,
     count: usize,
@@ -79,7 +79,7 @@ pub(super) fn cubic(side: usize) -> Centres {
     of((0..side * side * side).map(place).collect())
 }
 
-/// The face-centred cubic lattice: the one of cubes of side 1, and the middles of their faces.
+/// The face-centred cubic lattice: corners of cubes of side 1, and the middles of their faces.
 pub(super) fn face_centred(side: usize) -> Centres {
     let (none, half) = (0.0, 0.5);
     let basis = [
@@ -93,7 +93,7 @@ pub(super) fn face_centred(side: usize) -> Centres {
     of(places.collect())
 }
 
-/// Spheres at random in a cube from 0, by the stream of that name.
+/// Random spheres in a cube from 0, from the stream of this name.
 pub(super) fn ideal_gas(count: usize, side: f64, stream: &str) -> Centres {
     let mut random = Random::new(stream);
     let mut coordinate = || random.uniform() * side;

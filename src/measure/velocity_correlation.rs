@@ -1,4 +1,4 @@
-//! How far the fluctuations of velocities reach.
+//! The spatial correlation of velocity fluctuations.
 
 use super::bins::Bins;
 use super::blocks::{Blocks, quotient};
@@ -7,26 +7,26 @@ use crate::particles::vector::Vector;
 use crate::simulation::Snapshot;
 use crate::statistics::Estimate;
 
-/// Radii that are tried before the best of them is refined.
+/// Number of radii that are tried before the best is refined.
 const TRIALS: u32 = 64;
 
 /// The correlation of the horizontal displacements of two spheres about the mean flow, over their
 /// distance: <u_i u_j> / <u^2>, with the displacement u along x between two snapshots.
 ///
-/// The mean flow is that of all pairs of snapshots together, in bins of the place. Intervals are
-/// those of a jackknife over at most ten blocks of consecutive pairs.
+/// The mean flow is taken over all pairs of snapshots, in bins of the place. Intervals come from a
+/// jackknife over at most ten blocks of consecutive pairs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VelocityCorrelation {
     /// Width of a bin of distances (m).
     width: f64,
     bins: usize,
-    /// Of each pair of snapshots: the sum of squares (m2), the number of spheres, the sums of the
+    /// For each pair of snapshots: the sum of squares (m2), the number of spheres, the sums of the
     /// products (m2) at each distance, and their numbers.
     rows: Vec<Vec<f64>>,
 }
 
-/// A sphere in the middle of its way.
-struct Moved {
+/// A sphere half way between two snapshots.
+struct MidwaySphere {
     place: Vector,
     /// Displacement along x (m).
     displacement: f64,
@@ -34,11 +34,11 @@ struct Moved {
 }
 
 impl VelocityCorrelation {
-    /// Of the spheres in a region in the middle of their way between the snapshots of each pair,
-    /// which come in the order of time.
+    /// For spheres that are in a region half way between the snapshots of each pair. Pairs come in
+    /// the order of time.
     ///
     /// * `cell`: width of the bins of the mean flow (m)
-    /// * `farthest`: largest distance (m), in so many bins
+    /// * `farthest`: largest distance (m), and the number of bins
     pub fn of(
         pairs: &[(&Snapshot, &Snapshot)],
         region: Region,
@@ -53,10 +53,10 @@ impl VelocityCorrelation {
             region,
             counts: [0, 1, 2].map(count),
         };
-        let moved: Vec<Vec<Moved>> = pairs.iter().map(|pair| moved(&cells, *pair)).collect();
+        let moved: Vec<Vec<MidwaySphere>> = pairs.iter().map(|pair| moved(&cells, *pair)).collect();
         let mean = mean_flow(&cells, &moved);
         let width = farthest / bins as f64;
-        let row = |moved: &Vec<Moved>| row(moved, &mean, (width, bins));
+        let row = |moved: &Vec<MidwaySphere>| row(moved, &mean, (width, bins));
         Self {
             width,
             bins,
@@ -76,10 +76,10 @@ impl VelocityCorrelation {
         (0..self.bins).filter_map(point).collect()
     }
 
-    /// The radius R (m) of spheres whose common volume falls with the distance r of their centres
-    /// as the correlation does: A (1 - 3 r / (4 R) + r^3 / (16 R^3)) + B below 2 R, else B. Two
-    /// spheres that the same spots of radius R move are correlated so; B is what all of them share
-    /// when the flow as a whole speeds up, slows down or sways. Least squares over the distances
+    /// The radius R (m) of spheres whose common volume decreases with the distance r of their
+    /// centres like the correlation: A (1 - 3 r / (4 R) + r^3 / (16 R^3)) + B below 2 R, else B.
+    /// This is the correlation of two spheres moved by the same spots of radius R; B is the common
+    /// part when the whole flow speeds up, slows down or sways. Least squares over the distances
     /// from `nearest` (m) on.
     pub fn radius(&self, nearest: f64) -> Option<Estimate> {
         Blocks::of(&self.rows).estimate(|sums| self.fitted(sums, nearest))
@@ -100,7 +100,7 @@ impl VelocityCorrelation {
         let points = points.filter_map(|bin| Some((self.middle(bin), self.at(sums, bin)?)));
         let points: Vec<(f64, f64)> = points.collect();
         let farthest = points.last()?.0;
-        // The least squares of A and B leave what is across the shape and a constant.
+        // The residual of A and B is orthogonal to the shape and to a constant.
         let left = |radius: f64| {
             let shape = |distance: f64| common_volume(distance / radius);
             let count = points.len() as f64;
@@ -134,7 +134,7 @@ impl VelocityCorrelation {
     }
 }
 
-/// The common volume of two spheres over that of one, at this distance over their radius.
+/// The common volume of two spheres over the volume of one, at a distance in units of their radius.
 fn common_volume(distance: f64) -> f64 {
     match distance < 2.0 {
         true => 1.0 - 0.75 * distance + distance * distance * distance / 16.0,
@@ -142,17 +142,17 @@ fn common_volume(distance: f64) -> f64 {
     }
 }
 
-fn moved(cells: &Bins, (before, after): (&Snapshot, &Snapshot)) -> Vec<Moved> {
+fn moved(cells: &Bins, (before, after): (&Snapshot, &Snapshot)) -> Vec<MidwaySphere> {
     let spheres = before
         .position
         .rows()
         .into_iter()
         .zip(after.position.rows());
     let moved = spheres.filter_map(|(before, after)| {
-        // Not a number, and so in no region, where a sphere has left.
+        // NaN, and so in no region, if a sphere has left.
         let middle = [0, 1, 2].map(|axis| 0.5 * (before[axis] + after[axis]));
         let place = Vector::from(middle);
-        Some(Moved {
+        Some(MidwaySphere {
             place,
             displacement: after[0] - before[0],
             bin: cells.index(place)?,
@@ -162,7 +162,7 @@ fn moved(cells: &Bins, (before, after): (&Snapshot, &Snapshot)) -> Vec<Moved> {
 }
 
 /// The mean displacement (m) in each cell.
-fn mean_flow(cells: &Bins, moved: &[Vec<Moved>]) -> Vec<f64> {
+fn mean_flow(cells: &Bins, moved: &[Vec<MidwaySphere>]) -> Vec<f64> {
     let (mut sums, mut counts) = (vec![0.0; cells.len()], vec![0.0; cells.len()]);
     for sphere in moved.iter().flatten() {
         sums[sphere.bin] += sphere.displacement;
@@ -174,7 +174,7 @@ fn mean_flow(cells: &Bins, moved: &[Vec<Moved>]) -> Vec<f64> {
         .collect()
 }
 
-fn row(moved: &[Moved], mean: &[f64], (width, bins): (f64, usize)) -> Vec<f64> {
+fn row(moved: &[MidwaySphere], mean: &[f64], (width, bins): (f64, usize)) -> Vec<f64> {
     let places: Vec<Vector> = moved.iter().map(|it| it.place).collect();
     let strays = moved.iter().map(|it| it.displacement - mean[it.bin]);
     let strays: Vec<f64> = strays.collect();
@@ -205,8 +205,8 @@ mod tests {
         crate::measure::synthetic::snapshot(time, &rows)
     }
 
-    /// Places that spots of radius 2.5 at random places push along x, in 12 pairs of snapshots, in
-    /// each of which all of them sway by up to so much. One seed.
+    /// Spheres that randomly placed spots of radius 2.5 push along x, in 12 pairs of snapshots, in
+    /// each of which all spheres sway by up to `sway`. One seed.
     fn correlation_of_spots(sway: f64) -> VelocityCorrelation {
         let gas = ideal_gas(6_000, 20.0, "velocity correlation");
         let mut random = Random::new("spots that push");
@@ -246,7 +246,7 @@ mod tests {
         assert!(points[1].value.value > 0.7 && points[31].value.value.abs() < 0.15);
     }
 
-    /// Symptom: the radius came out twice as large. Cause: what all spheres have in common was
+    /// Symptom: the radius came out twice as large. Cause: the common motion of all spheres was
     /// taken for the reach of spots.
     #[test]
     fn what_all_spheres_share_does_not_widen_the_radius() {

@@ -1,28 +1,28 @@
-//! How fast spheres fall, from place to place.
+//! Profiles of the downward velocity.
 
 use super::bins::Bins;
 use super::blocks::{Blocks, quotient};
-use super::{Axis, Region};
+use super::{Region, SpaceAxis};
 use crate::particles::vector::Vector;
 use crate::simulation::Snapshot;
 use crate::statistics::Estimate;
 
 /// Downward velocities of the spheres in a region, in bins along an axis; several pairs of
 /// consecutive snapshots may be added. Spheres that leave between the two do not count: a region
-/// that reaches down to them loses the fastest.
+/// that includes them misses the fastest.
 ///
-/// Intervals are those of a jackknife over at most ten blocks of consecutive pairs; a block should
-/// be longer than velocities stay correlated.
+/// Intervals come from a jackknife over at most ten blocks of consecutive pairs; a block should be
+/// longer than the correlation time of velocities.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VelocityProfile {
-    axis: Axis,
+    axis: SpaceAxis,
     bins: Bins,
-    /// Of each pair of snapshots the sums of the velocities (m/s) in the bins, then the numbers of
-    /// spheres there.
+    /// For each pair of snapshots the sums of the velocities (m/s) in the bins, then the numbers of
+    /// spheres.
     rows: Vec<Vec<f64>>,
 }
 
-/// What was measured at a place.
+/// A measured value at a place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ProfilePoint {
     /// The middle of the bin (m).
@@ -32,8 +32,8 @@ pub struct ProfilePoint {
 }
 
 impl VelocityProfile {
-    /// No velocities yet; one or more bins of one width divide the region along the axis.
-    pub fn new(axis: Axis, region: Region, bins: usize) -> Self {
+    /// No velocities yet; one or more bins of equal width divide the region along the axis.
+    pub fn new(axis: SpaceAxis, region: Region, bins: usize) -> Self {
         let mut counts = [1; 3];
         counts[axis.index()] = bins;
         Self {
@@ -43,8 +43,8 @@ impl VelocityProfile {
         }
     }
 
-    /// Adds the spheres that are in both snapshots, and in the region in the middle of their way.
-    /// Pairs come in the order of time.
+    /// Adds the spheres that are in both snapshots, and in the region half way between them. Pairs
+    /// come in the order of time.
     pub fn add(&mut self, before: &Snapshot, after: &Snapshot) {
         let bins = self.bins();
         let mut row = vec![0.0; 2 * bins];
@@ -52,7 +52,7 @@ impl VelocityProfile {
         let spheres = before.position.rows().into_iter();
         for (before, after) in spheres.zip(after.position.rows()) {
             let middle = [0, 1, 2].map(|axis| 0.5 * (before[axis] + after[axis]));
-            // Not a number, and so in no region, where a sphere has left.
+            // NaN, and so in no region, if a sphere has left.
             if let Some(bin) = self.bins.index(Vector::from(middle)) {
                 row[bin] += (before[2] - after[2]) / interval;
                 row[bins + bin] += 1.0;
@@ -66,7 +66,7 @@ impl VelocityProfile {
         self.points(|sums, bin| self.velocity(sums, bin))
     }
 
-    /// The same over the mean of the whole region.
+    /// The same divided by the mean of the whole region.
     pub fn normalized(&self) -> Vec<ProfilePoint> {
         self.points(|sums, bin| quotient(self.velocity(sums, bin)?, self.mean_of(sums)?))
     }
@@ -139,7 +139,7 @@ mod tests {
         let [before, mut after] = fall(&mut random, |[x, _, _], _| 3.0 + x.floor());
         // One sphere has left.
         after.position.row_mut(17).fill(f64::NAN);
-        let mut profile = VelocityProfile::new(Axis::X, REGION, 10);
+        let mut profile = VelocityProfile::new(SpaceAxis::X, REGION, 10);
         assert!(profile.values().is_empty() && profile.mean().is_none());
         profile.add(&before, &after);
         for (bin, point) in profile.values().into_iter().enumerate() {
@@ -152,7 +152,7 @@ mod tests {
             high: [5.0, 1.0, 8.0],
             ..REGION
         };
-        let mut upwards = VelocityProfile::new(Axis::Z, above, 8);
+        let mut upwards = VelocityProfile::new(SpaceAxis::Z, above, 8);
         upwards.add(&before, &after);
         assert_eq!(upwards.values().len(), 4);
     }
@@ -160,7 +160,7 @@ mod tests {
     #[test]
     fn a_profile_across_the_depth_is_normalized() {
         let mut random = Random::new("normalized profile");
-        let mut profile = VelocityProfile::new(Axis::Y, REGION, 4);
+        let mut profile = VelocityProfile::new(SpaceAxis::Y, REGION, 4);
         for pair in 0..20 {
             // The flow as a whole fluctuates, its shape does not.
             let flow = 1.0 + 0.5 * f64::from(pair % 3);
@@ -168,7 +168,7 @@ mod tests {
             profile.add(&before, &after);
         }
         for point in profile.normalized() {
-            // Mean of 1 - y^2 over the bin, over that of the whole depth.
+            // Mean of 1 - y^2 over the bin, over the mean for the whole depth.
             let expected = (1.0 - point.place * point.place - 1.0 / 48.0) / (2.0 / 3.0);
             let Estimate { value, half_width } = point.value;
             assert!((value - expected).abs() < 0.02, "{point:?}");
@@ -182,7 +182,7 @@ mod tests {
         let mut random = Random::new("intervals of velocities");
         let (mut covered, mut all) = (0, 0);
         for _ in 0..20 {
-            let mut profile = VelocityProfile::new(Axis::X, REGION, 20);
+            let mut profile = VelocityProfile::new(SpaceAxis::X, REGION, 20);
             for _ in 0..10 {
                 let [before, after] = fall(&mut random, |_, random| 2.0 + random.normal());
                 profile.add(&before, &after);

@@ -1,16 +1,16 @@
-//! Volumes of Voronoi cells, and packing fractions of them.
+//! Volumes of Voronoi cells, and packing fractions from them.
 
 use super::polyhedron::Polyhedron;
 use super::{CellGrid, Centres, Region};
 use crate::particles::vector::Vector;
 use std::f64::consts::PI;
 
-/// Where cells end besides at their neighbours.
+/// Boundaries of cells besides their neighbours.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Walls {
+pub struct CellBounds {
     /// The corner of the box with the least coordinates (m).
     pub low: [f64; 3],
-    /// The corner with the largest ones (m).
+    /// The corner with the largest coordinates (m).
     pub high: [f64; 3],
     /// Free surfaces: cells reach no farther than this from their centres along each axis (m).
     pub farthest: f64,
@@ -21,19 +21,19 @@ pub struct Walls {
 pub struct VoronoiCell {
     /// Volume (m3).
     pub volume: f64,
-    /// Number of faces, those at walls too.
+    /// Number of faces, including faces at walls.
     pub faces: usize,
 }
 
 /// The Voronoi cell of every sphere: all places nearer to its centre than to others, inside the
-/// walls. Planes between it and its neighbours, the nearest first, cut it out of the box, until
-/// none that is left can reach its corners (Rycroft, Chaos 19, 041111 (2009)).
-pub fn voronoi_cells(centres: &Centres, walls: &Walls) -> Vec<VoronoiCell> {
+/// walls. Planes between it and its neighbours, the nearest first, cut it out of the box until no
+/// remaining one can reach its corners (Rycroft, Chaos 19, 041111 (2009)).
+pub fn voronoi_cells(centres: &Centres, walls: &CellBounds) -> Vec<VoronoiCell> {
     let count = centres.place.len() as f64;
     let extent = (0..3).map(|axis| (walls.high[axis] - walls.low[axis]).min(2.0 * walls.farthest));
-    // About the distance of neighbours.
+    // Approximate distance of neighbours.
     let spacing = libm::cbrt(extent.product::<f64>() / count.max(1.0)).min(walls.farthest);
-    let mut search = Search {
+    let mut search = VoronoiSearch {
         grid: CellGrid::new(&centres.place, spacing),
         first: 1.5 * spacing,
         near: Vec::new(),
@@ -44,16 +44,16 @@ pub fn voronoi_cells(centres: &Centres, walls: &Walls) -> Vec<VoronoiCell> {
         .collect()
 }
 
-/// Looks for the neighbours of one sphere after the other.
-struct Search<'a> {
+/// A search for the neighbours of one sphere after the other.
+struct VoronoiSearch<'a> {
     grid: CellGrid<'a>,
-    /// Distance of the first look (m).
+    /// Distance of the first search (m).
     first: f64,
     near: Vec<(f64, Vector)>,
 }
 
-impl Search<'_> {
-    fn cell(&mut self, place: Vector, own: usize, walls: &Walls) -> VoronoiCell {
+impl VoronoiSearch<'_> {
+    fn cell(&mut self, place: Vector, own: usize, walls: &CellBounds) -> VoronoiCell {
         let at = [place.x, place.y, place.z];
         let farthest = walls.farthest;
         let side =
@@ -65,7 +65,8 @@ impl Search<'_> {
         loop {
             self.look(place, own, from, to);
             for (squared, away) in &self.near {
-                // A plane halfway to a sphere twice as far as all corners cuts none of them off.
+                // A plane halfway to a sphere twice as far away as all corners cuts off none of
+                // them.
                 if *squared >= 4.0 * cell.reach_squared() {
                     break;
                 }
@@ -82,7 +83,7 @@ impl Search<'_> {
         }
     }
 
-    /// The spheres from a distance on, up to another one (m), the nearest first.
+    /// The spheres between two distances (m), the nearest first.
     fn look(&mut self, place: Vector, own: usize, from: f64, to: f64) {
         self.near.clear();
         let near = &mut self.near;
@@ -96,18 +97,18 @@ impl Search<'_> {
     }
 }
 
-/// Neighbours that tell how far apart spheres are.
+/// Number of neighbours from which the distance of spheres is estimated.
 const NEIGHBOURS: usize = 6;
-/// Distance within which a sphere of a dense packing has so many neighbours, in diameters.
+/// Distance, in diameters, within which a sphere in a dense packing has this many neighbours.
 const DENSE: f64 = 1.2;
-/// How far cells reach at the free surface of a loose packing, in distances of the last of these
-/// neighbours.
+/// How far cells reach at the free surface of a loose packing, in units of the distance of the last
+/// of these neighbours.
 const LOOSE_REACH: f64 = 2.0;
 
 /// How far cells may reach from their centres at a free surface (m), for the spheres of one
-/// diameter (m) in a region. In a dense packing, where at least half of them have six neighbours
-/// within 1.2 diameters, one diameter. In a looser one twice the median distance of the sixth
-/// neighbour, so that cells between spheres that are far apart are not cut.
+/// diameter (m) in a region. One diameter in a dense packing, where at least half of them have six
+/// neighbours within 1.2 diameters. Twice the median distance of the sixth neighbour in a looser
+/// packing, so that cells between distant spheres are not cut.
 pub(super) fn reach_of_cells(centres: &Centres, region: &Region, diameter: f64) -> f64 {
     let grid = CellGrid::new(&centres.place, DENSE * diameter);
     let inside = centres.place.iter().filter(|it| region.contains(**it));
@@ -121,7 +122,7 @@ pub(super) fn reach_of_cells(centres: &Centres, region: &Region, diameter: f64) 
     }
 }
 
-/// Distance (m) of the sixth neighbour of a sphere; infinite where there are fewer.
+/// Distance (m) of the sixth neighbour of a sphere; infinite if there are fewer.
 fn of_last_neighbour(grid: &CellGrid<'_>, place: Vector, diameter: f64) -> f64 {
     let mut farthest = DENSE * diameter;
     loop {
@@ -138,7 +139,7 @@ fn of_last_neighbour(grid: &CellGrid<'_>, place: Vector, diameter: f64) -> f64 {
 }
 
 /// Packing fraction at a place: volume of the spheres, of one diameter (m), whose centres are at
-/// most `distance` (m) away, over that of their cells. None without such spheres.
+/// most `distance` (m) away, over the volume of their cells. `None` without such spheres.
 pub fn local_packing_fraction(
     grid: &CellGrid<'_>,
     cells: &[VoronoiCell],
@@ -161,8 +162,8 @@ mod tests {
     use crate::measure::synthetic::{cubic, ideal_gas, of};
     use proptest::prelude::*;
 
-    fn walls(side: f64) -> Walls {
-        Walls {
+    fn walls(side: f64) -> CellBounds {
+        CellBounds {
             low: [0.0; 3],
             high: [side; 3],
             farthest: 1e3,
@@ -216,7 +217,7 @@ mod tests {
 
     #[test]
     fn at_a_free_surface_cells_end_at_the_farthest() {
-        let walls = Walls {
+        let walls = CellBounds {
             low: [-1.0; 3],
             high: [1.0, 1.0, f64::INFINITY],
             farthest: 3.0,
@@ -248,7 +249,7 @@ mod tests {
             for place in &mut gas.place {
                 place.z *= flat;
             }
-            let walls = Walls { low: [0.0; 3], high: [1.0, 1.0, flat], farthest: 9.0 };
+            let walls = CellBounds { low: [0.0; 3], high: [1.0, 1.0, flat], farthest: 9.0 };
             let volume: f64 = voronoi_cells(&gas, &walls).iter().map(|cell| cell.volume).sum();
             prop_assert!((volume / flat - 1.0).abs() < 1e-9, "{volume}");
         }

@@ -1,9 +1,9 @@
-//! What is measured on a simulation while it runs, frame by frame.
+//! Observables of a running simulation, frame by frame.
 
 mod observations;
 mod observer;
 mod reduce;
 
 pub use crate::simulation::{Column, FRAME_BLOCK, Flow, Frame, FrameView, Ledger, Snapshot};
-pub use observations::{Observations, OwnSeries, Series};
+pub use observations::{Observations, OwnSeries, ScalarSeries};
 pub use observer::Observer;

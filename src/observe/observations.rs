@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 /// A scalar observable with its values.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Series<'a> {
+pub struct ScalarSeries<'a> {
     /// Name, as in the record.
     pub name: &'a str,
     /// Unit, as in the record.
@@ -47,9 +47,9 @@ macro_rules! scalars {
     ($($name:ident $unit:literal $description:literal;)*) => {
         /// Observables of a run, one entry per frame; the first frame is the start.
         ///
-        /// An observable that the scene does not call for is empty (see
-        /// [`Observer`](super::Observer)). Values are single precision: the record stays small,
-        /// and sieves read exactly what a record holds.
+        /// An observable that the scene does not need is empty (see [`Observer`](super::Observer)).
+        /// Values have single precision: the record stays small, and sieves read exactly what a
+        /// record holds.
         #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
         pub struct Observations {
             /// Time of each frame (s).
@@ -57,14 +57,14 @@ macro_rules! scalars {
             $(#[doc = concat!($description, " (", $unit, ").")] pub $name: Vec<f32>,)*
             /// What the model itself declares.
             pub own: Vec<OwnSeries>,
-            /// Height of the highest centre in each radial bin (m); not a number for an empty
-            /// bin. Shape: frames x bins, inner bin first, bins of equal width up to R; the
-            /// outermost also holds what is beyond R. No bins without a tank radius.
+            /// Height of the highest centre in each radial bin (m); not a number for an empty bin.
+            /// Shape: frames x bins, inner bin first, bins of equal width up to R; the outermost
+            /// includes everything beyond R. No bins without a tank radius.
             pub profile: Array2<f32>,
-            /// Number of spheres that rose faster than the mean of all by a speed, since the frame
-            /// before, and were within a share of R of the axis then; none at the first frame,
-            /// and 65535 also stands for more. Shape: frames x `rise_radii` x `rise_speeds` of
-            /// the scene's output table; without a tank radius, frames x 0 x `rise_speeds`.
+            /// Number of spheres that rose faster, by a given speed, than the mean since the
+            /// previous frame, and that were then within a share of R of the axis; zero at the
+            /// first frame, and at most 65535. Shape: frames x `rise_radii` x `rise_speeds` of the
+            /// scene's output table; without a tank radius, frames x 0 x `rise_speeds`.
             pub rising: Array3<u16>,
         }
 
@@ -78,17 +78,17 @@ macro_rules! scalars {
                 },)*
             ];
 
-            /// The scalar observables that there are, in a fixed order.
-            pub fn scalars(&self) -> Vec<Series<'_>> {
+            /// The scalar observables that are not empty, in a fixed order.
+            pub fn scalars(&self) -> Vec<ScalarSeries<'_>> {
                 let of_spheres = [$(self.$name.as_slice(),)*];
                 let of_spheres = Self::COLUMNS.iter().zip(of_spheres);
-                let of_spheres = of_spheres.map(|(column, values)| Series {
+                let of_spheres = of_spheres.map(|(column, values)| ScalarSeries {
                     name: column.name,
                     unit: column.unit,
                     description: column.description,
                     values,
                 });
-                let own = self.own.iter().map(|series| Series {
+                let own = self.own.iter().map(|series| ScalarSeries {
                     name: &series.name,
                     unit: &series.unit,
                     description: &series.description,
@@ -98,7 +98,7 @@ macro_rules! scalars {
                 all.filter(|series| !series.values.is_empty()).collect()
             }
 
-            /// The scalar observable of spheres of that name, to fill it.
+            /// The scalar observable of spheres with this name, to fill it.
             pub fn scalar_mut(&mut self, name: &str) -> Option<&mut Vec<f32>> {
                 match name {
                     $(stringify!($name) => Some(&mut self.$name),)*

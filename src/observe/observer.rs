@@ -12,33 +12,33 @@ use rising::{Previous, Rising};
 use serde::{Deserialize, Serialize};
 use totals::Totals;
 
-/// Measures a simulation at every frame: what its scene calls for, and what its model declares.
+/// Measures a simulation at every frame: what its scene needs, and what its model declares.
 ///
-/// What refers to the axis (hole, rotation, fluctuation) is measured in a round tank or in swirling
-/// air; the speed of the air in swirling air; elastic energy where there are contacts; flow where
+/// Observables that refer to the axis (hole, rotation, fluctuation) are measured in a round tank or
+/// in swirling air; the speed of the air in swirling air; elastic energy with contacts; flow if
 /// spheres come and go; the energy ledger on request. Sums run over the spheres in the order of
 /// their indices, so equal states give equal bits.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Observer {
-    /// Components of gravity, less the buoyancy, along x and z, 0 without it (m/s2).
+    /// Components along x and z of gravity minus buoyancy, 0 without gravity (m/s2).
     gravity: [f64; 2],
     /// Inertial mass over mass.
     inertial_factor: f64,
     /// |Omega| of the swirling air, 0 without swirl (rad/s).
     air_rotation: f64,
-    /// Whether the scene has an axis that spheres may turn about.
+    /// Whether the scene has an axis about which spheres may turn.
     has_axis: bool,
     has_air: bool,
     has_contacts: bool,
-    /// Whether velocities mean motion: those of spots are but mean displacements.
+    /// Whether velocities describe motion: in the spot model they are only mean displacements.
     has_energies: bool,
     bins: usize,
     bin_width: f64,
-    /// Rises per frame relative to the mean that count, in radii of the sphere.
+    /// Least rises per frame relative to the mean, in radii of the sphere.
     rises: Vec<f64>,
-    /// Distances from the axis within which they count (m).
+    /// Distances from the axis within which spheres count (m).
     distances: Vec<f64>,
-    /// Frames in a second, one at least.
+    /// Frames per second, at least one.
     second: usize,
     observations: Observations,
     /// Rows of `Observations::profile`, one after the other.
@@ -49,7 +49,7 @@ pub struct Observer {
     #[serde(skip)]
     distance: Vec<f64>,
     previous: Option<Previous>,
-    /// What all energy, dissipated and brought, came to at the first frame (J).
+    /// Energy balance at the first frame (J).
     balance: Option<f64>,
 }
 
@@ -60,7 +60,7 @@ impl Observer {
     /// within no radius: both arrays have a length of 0 there.
     pub fn new(scene: &Scene, radius: &[f64]) -> Self {
         let output = &scene.output;
-        // What compares a frame with the one before needs the same spheres in both.
+        // Comparison with the previous frame needs the same spheres in both.
         let tank = scene.tank.as_ref().filter(|_| !scene.has_flow());
         let tank_radius = tank.and_then(|tank| tank.radius);
         let mean_radius = radius.iter().sum::<f64>() / radius.len() as f64;
@@ -131,7 +131,7 @@ impl Observer {
         self.second_look(frame, &means);
     }
 
-    /// The observables of all frames so far, but for `profile` and `rising`.
+    /// The observables of all frames so far, without `profile` and `rising`.
     pub(crate) fn observations(&self) -> &Observations {
         &self.observations
     }
@@ -149,7 +149,7 @@ impl Observer {
         }
     }
 
-    /// Looks for all that does not depend on a mean.
+    /// Computes everything that does not depend on a mean.
     fn first_look(&mut self, frame: &dyn Frame) -> Totals {
         let start = self.profile.len();
         self.profile.resize(start + self.bins, f32::NAN);
@@ -166,7 +166,7 @@ impl Observer {
             }
             for (&distance, &z) in self.distance.iter().zip(block.position[2]) {
                 let top = &mut tops[bin(distance, self.bin_width, self.bins)];
-                // Of a number and the NaN of an empty bin, `max` takes the number.
+                // `max` of a number and the NaN of an empty bin is the number.
                 *top = top.max(z as f32);
             }
         });
@@ -271,7 +271,7 @@ impl Observer {
         }
     }
 
-    /// Looks for what depends on means. All of it refers to the axis.
+    /// Computes what depends on means. All of it refers to the axis.
     fn second_look(&mut self, frame: &dyn Frame, means: &Means) {
         if !self.has_axis {
             return;
@@ -317,9 +317,9 @@ fn find_distances(block: &FrameView<'_>, distance: &mut Vec<f64>) {
     distance.extend(x.iter().zip(y).map(|(x, y)| (x * x + y * y).sqrt()));
 }
 
-/// Index of the bin of this `distance` from the axis. Bin j reaches from j widths (without) to
-/// j + 1 widths (with); the innermost holds the axis, and the outermost also what is beyond it:
-/// a sphere pressed into a soft wall.
+/// Index of the bin of this `distance` from the axis. Bin j reaches from j widths (excluded) to j +
+/// 1 widths (included). The innermost includes the axis, and the outermost everything beyond it,
+/// such as a sphere pressed into a soft wall.
 fn bin(distance: f64, width: f64, bins: usize) -> usize {
     let widths = distance / width;
     let below = widths as u32;

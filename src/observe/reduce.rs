@@ -1,7 +1,7 @@
 //! Sums and extremes over the spheres, in a fixed order that still fills vector registers.
 //!
-//! Sphere i goes to partial result i modulo `LANES`; the partial results are put together at the
-//! end. The order is part of the result: another one would round differently.
+//! Sphere i goes to partial result i modulo `LANES`; the partial results are combined at the end.
+//! The order is part of the result: another order would round differently.
 
 use crate::simulation::FRAME_BLOCK as LANES;
 
@@ -36,7 +36,7 @@ impl Sum {
         self.0 = lanes;
     }
 
-    /// What it comes to.
+    /// The total.
     pub(super) fn total(self) -> f64 {
         let [a, b, c, d] = self.0;
         (a + b) + (c + d)

@@ -1,9 +1,9 @@
 //! Blocks of pairs, one array per quantity.
 //!
-//! Vectors lie in memory in rows of four numbers, so that a pair finds each of a partner in one
-//! place; contact laws are computed for a block of pairs at once, which needs each
-//! quantity of all pairs side by side. The way from the one to the other is the transposition of
-//! four rows of four numbers, in registers. No number is changed by it.
+//! Vectors are stored in rows of four numbers, so that a pair finds each vector of a partner in one
+//! place. Contact laws are computed for a block of pairs at once, which needs each quantity of all
+//! pairs side by side. Four rows of four numbers are transposed in registers to get from one to the
+//! other. This changes no number.
 
 use super::vector::Vector;
 use fearless_simd::{Simd, SimdBase, SimdCombine, SimdSplit, f64x4, f64x8};
@@ -12,19 +12,19 @@ use fearless_simd::{Simd, SimdBase, SimdCombine, SimdSplit, f64x4, f64x8};
 pub(crate) const BLOCK: usize = 32;
 
 /// Four numbers side by side.
-pub(crate) type Row = [f64; 4];
+pub(crate) type VectorRow = [f64; 4];
 
 /// One quantity of every pair in a block.
-pub(crate) type Column = [f64; BLOCK];
+pub(crate) type BlockColumn = [f64; BLOCK];
 
 /// The columns of one kind of row.
 #[repr(align(64))]
-pub(crate) struct Columns(pub(crate) [Column; 3]);
+pub(crate) struct VectorColumns(pub(crate) [BlockColumn; 3]);
 
 /// Rows that are turned into columns, or columns into rows, at once.
 pub(crate) const ROWS: usize = 8;
 
-impl Columns {
+impl VectorColumns {
     pub(crate) const ZERO: Self = Self([[0.0; BLOCK]; 3]);
 
     /// Fills the columns, each with the row of its lane.
@@ -35,7 +35,7 @@ impl Columns {
         }
     }
 
-    /// Fills the columns from `at` on, as many lanes as rows are turned at once.
+    /// Fills the columns from `at` on, for as many lanes as rows are transposed at once.
     #[inline(always)]
     pub(crate) fn fill_from<S: Simd>(&mut self, at: usize, row: impl Fn(usize) -> f64x4<S>) {
         let [x, y, z] = turned(
@@ -52,7 +52,7 @@ impl Columns {
     #[inline(always)]
     pub(crate) fn fill_four<S: Simd>(
         &mut self,
-        fourth: &mut Column,
+        fourth: &mut BlockColumn,
         row: impl Fn(usize) -> f64x4<S>,
     ) {
         let [first, second, third] = &mut self.0;
@@ -82,11 +82,11 @@ impl Columns {
         (x[k], y[k], z[k]) = (vector.x, vector.y, vector.z);
     }
 
-    /// The rows from `at` on; their fourth numbers mean nothing.
+    /// The rows from `at` on; their fourth numbers have no meaning.
     #[inline(always)]
     pub(crate) fn rows<S: Simd>(&self, simd: S, at: usize) -> [f64x4<S>; ROWS] {
-        // With a number of no meaning: a row whose last one is known would be written in
-        // pieces, which takes longer, and longer still to read them as one.
+        // The last number is arbitrary: a row with a known last number would be written in pieces,
+        // which is slower to write and to read back.
         self.rows_of_four(simd, at, &self.0[1])
     }
 
@@ -96,7 +96,7 @@ impl Columns {
         &self,
         simd: S,
         at: usize,
-        fourth: &Column,
+        fourth: &BlockColumn,
     ) -> [f64x4<S>; ROWS] {
         let [first, second, third] = &self.0;
         let (first, second, third, fourth) = (
@@ -134,8 +134,8 @@ pub(crate) fn turned<S: Simd>(row: impl Fn(usize) -> f64x4<S>) -> [f64x8<S>; 3] 
     [x, y, z]
 }
 
-/// Rows as columns. Spelled out, as closures given to array methods would be calls of functions
-/// that are compiled without these vectors.
+/// Rows as columns. Spelled out, because closures passed to array methods would be compiled without
+/// the wide instruction set.
 #[inline(always)]
 fn turned_four<S: Simd>(row: impl Fn(usize) -> f64x4<S>) -> [f64x8<S>; 4] {
     let (a, b, c, d) = (row(0), row(1), row(2), row(3));
@@ -182,7 +182,7 @@ pub(crate) fn row<S: Simd>(simd: S, vectors: &[Vector], i: u32) -> f64x4<S> {
     vectors[i as usize].simd(simd)
 }
 
-/// The places of the ones among bits.
+/// The positions of the bits that are set.
 #[inline(always)]
 pub(crate) fn ones(mut bits: u64) -> impl Iterator<Item = usize> {
     std::iter::from_fn(

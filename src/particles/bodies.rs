@@ -1,7 +1,7 @@
 //! A block of spheres, one column per quantity. Effects on single spheres are computed for a whole
 //! block at once.
 
-use super::block::{BLOCK, Column, Columns};
+use super::block::{BLOCK, BlockColumn, VectorColumns};
 
 /// Columns that effects read besides masses and forces. The engine fills them in `dem/bodies.rs`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -29,17 +29,17 @@ pub(crate) struct Bodies {
     /// Number of spheres.
     pub(crate) count: usize,
     /// Forces so far (N).
-    pub(crate) force: Columns,
+    pub(crate) force: VectorColumns,
     /// Centres (m), if they are asked for.
-    pub(crate) position: Columns,
+    pub(crate) position: VectorColumns,
     /// Velocities (m/s), if they are asked for.
-    pub(crate) velocity: Columns,
+    pub(crate) velocity: VectorColumns,
     /// Spins (rad/s), if they are asked for.
-    pub(crate) spin: Columns,
+    pub(crate) spin: VectorColumns,
     /// Torques so far (N m), if they are asked for.
-    pub(crate) torque: Columns,
+    pub(crate) torque: VectorColumns,
     /// Masses (kg).
-    pub(crate) mass: Column,
+    pub(crate) mass: BlockColumn,
 }
 
 impl Bodies {
@@ -47,11 +47,11 @@ impl Bodies {
         Self {
             first: 0,
             count: 0,
-            force: Columns::ZERO,
-            position: Columns::ZERO,
-            velocity: Columns::ZERO,
-            spin: Columns::ZERO,
-            torque: Columns::ZERO,
+            force: VectorColumns::ZERO,
+            position: VectorColumns::ZERO,
+            velocity: VectorColumns::ZERO,
+            spin: VectorColumns::ZERO,
+            torque: VectorColumns::ZERO,
             mass: [0.0; BLOCK],
         }
     }

@@ -1,15 +1,16 @@
 //! Mathematics with the same bits on every machine.
 
-/// Exponential function, within 2 units in the last place for -708 < x < 709; below that range
-/// it returns exp(-708), which no force can tell from zero. Free of branches, so that a loop over
-/// it is vectorised. Cody and Waite (1980) reduction, then the Taylor series on |r| < ln(2)/2.
+/// Exponential function, within 2 units in the last place for -708 < x < 709; below that range it
+/// returns exp(-708), which is indistinguishable from zero in any force. Without branches, so that
+/// a loop over it is vectorised. Cody and Waite (1980) reduction, then the Taylor series on |r| <
+/// ln(2)/2.
 #[inline(always)]
 pub fn exp(x: f64) -> f64 {
     const LOG2_E: f64 = std::f64::consts::LOG2_E;
     // ln 2 in two parts; the first has 21 trailing zero bits, so that k times it is exact.
     const LN2_HIGH: f64 = 6.931_471_803_691_238e-1;
     const LN2_LOW: f64 = 1.908_214_929_270_587_7e-10;
-    // Adding this rounds to an integer, which then stands in the low bits of the sum.
+    // Adding this rounds to an integer, in the low bits of the sum.
     const ROUND: f64 = 6_755_399_441_055_744.0;
     const LOWEST: f64 = -708.0;
     const HIGHEST: f64 = 709.0;
@@ -27,12 +28,12 @@ pub fn exp(x: f64) -> f64 {
     }
 }
 
-/// 1 / sqrt(x), within 2 units in the last place for 1e-290 < x < 1e290; that of zero is a large
-/// number, whose product with zero is zero.
+/// 1 / sqrt(x), within 2 units in the last place for 1e-290 < x < 1e290; for x = 0 a large number,
+/// whose product with zero is zero.
 ///
 /// Four steps of Newton's method from a guess that halves the exponent (Lomont (2003), for double
-/// precision). A processor finds roots and quotients one after the other, while it multiplies many
-/// numbers at once: a loop over contacts is faster for it.
+/// precision). A processor computes roots and quotients one by one, but multiplies many numbers at
+/// once: this makes a loop over contacts faster.
 #[inline(always)]
 pub fn inverse_square_root(x: f64) -> f64 {
     const GUESS: u64 = 0x5fe6_eb50_c7b5_37a9;
@@ -46,8 +47,8 @@ pub fn inverse_square_root(x: f64) -> f64 {
     root
 }
 
-/// The series up to r^13, in pairs of pairs (Estrin (1960)): Horner's way would be to wait for
-/// every term.
+/// The series up to r^13, in pairs of pairs (Estrin (1960)): Horner's method would wait for every
+/// term.
 #[inline(always)]
 fn series(r: f64) -> f64 {
     const C: [f64; 14] = INVERSE_FACTORIALS;

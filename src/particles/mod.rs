@@ -1,4 +1,4 @@
-//! The spheres of a simulation, one array per quantity, and what is computed of them in blocks.
+//! The spheres of a simulation, one array per quantity, and blocks of them.
 
 pub(crate) mod block;
 pub(crate) mod bodies;
@@ -10,31 +10,30 @@ use reorder::reorder;
 use serde::{Deserialize, Serialize};
 use vector::Vector;
 
-/// The spheres. Every array has one entry per sphere, or none at all where the scene has no
-/// use for it: spins, torques and moments of inertia exist only with friction.
+/// The spheres. Every array has one entry per sphere, or is empty if the scene does not need it:
+/// spins, torques and moments of inertia exist only with friction.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Particles {
-    /// How many of the spheres, the first ones, never move.
+    /// Number of fixed spheres, which come first.
     pub fixed: usize,
-    /// Number of each sphere in the scene, counted from 0, fixed ones by themselves; empty where no
-    /// sphere comes or goes and there are too few to be sorted, which makes numbers and indices the
-    /// same.
+    /// Number of each sphere in the scene, counted from 0, fixed spheres separately. Empty if no
+    /// sphere comes or goes and there are too few to be sorted: numbers and indices are then equal.
     pub number: Vec<u32>,
     /// Centres (m).
     pub position: Vec<Vector>,
     /// Velocities (m/s).
     pub velocity: Vec<Vector>,
-    /// Forces of the latest evaluation (N); they mean nothing once a guard is broken.
+    /// Forces of the latest evaluation (N); meaningless once a guard is broken.
     pub force: Vec<Vector>,
     /// Spins (rad/s); empty without rotation.
     pub spin: Vec<Vector>,
-    /// Torques of the latest evaluation (N m), as the forces; empty without rotation.
+    /// Torques of the latest evaluation (N m); empty without rotation.
     pub torque: Vec<Vector>,
     /// Radii (m).
     pub radius: Vec<f64>,
-    /// Masses (kg), without that of a fluid.
+    /// Masses (kg), without added mass of a fluid.
     pub mass: Vec<f64>,
-    /// Mass that a force must accelerate over mass: more than 1 where a fluid moves with a sphere.
+    /// Inertial mass over mass: more than 1 if a fluid moves with the spheres.
     pub inertial_factor: f64,
     /// Inverse [inertial masses](Self::inertial_mass) (1/kg); zero holds a sphere in place.
     pub inverse_mass: Vec<f64>,
@@ -65,8 +64,7 @@ impl Default for Particles {
 }
 
 impl Particles {
-    /// Mass of a sphere that a force must accelerate (kg): its own and that of the fluid which
-    /// moves with it.
+    /// Inertial mass of a sphere (kg): its own mass and the mass of the fluid that moves with it.
     pub fn inertial_mass(&self, sphere: usize) -> f64 {
         self.mass[sphere] * self.inertial_factor
     }
@@ -92,7 +90,7 @@ impl Particles {
         !self.inertia.is_empty()
     }
 
-    /// Whether every array has an entry per sphere, or none where a scene may have no use for it.
+    /// Whether every array has an entry per sphere or, if it is optional, is empty.
     pub(crate) fn fits_together(&self) -> bool {
         let all = self.len();
         let turning = if self.rotate() { all } else { 0 };
@@ -139,7 +137,7 @@ impl Particles {
     /// Adds the spheres of `others`, which all move, at the end.
     pub fn append(&mut self, mut others: Self) {
         if self.is_empty() {
-            // Many spheres are not in memory twice then.
+            // Avoids a second copy of many spheres in memory.
             *self = others;
             return;
         }
@@ -155,7 +153,7 @@ impl Particles {
         self.inverse_inertia.append(&mut others.inverse_inertia);
     }
 
-    /// Removes the spheres that are not to be kept; the others stay in their order.
+    /// Removes the spheres that are not marked in `keep`; the others stay in order.
     pub fn retain(&mut self, keep: &[bool]) {
         self.fixed = keep[..self.fixed].iter().filter(|keep| **keep).count();
         retain(&mut self.number, keep);
@@ -196,7 +194,7 @@ impl Particles {
         }
     }
 
-    /// The number in the scene's start of the sphere at an index. Fixed ones have none.
+    /// The number in the scene's start of the sphere at an index. Fixed spheres have no number.
     pub(crate) fn number_in_scene(&self, index: usize) -> usize {
         match self.number.get(index) {
             Some(&number) => number as usize,
@@ -204,14 +202,14 @@ impl Particles {
         }
     }
 
-    /// Whether the sphere at an index stays, or keeps to its path, whatever acts on it.
+    /// Whether the sphere at an index is fixed or driven, so that forces do not move it.
     #[inline(always)]
     pub(crate) fn is_prescribed(&self, index: usize) -> bool {
         self.inverse_mass[index] == 0.0
     }
 
-    /// The least index of a partner that sphere `i` may have in a list of pairs: pairs stand with
-    /// the lower index first, and two fixed spheres are none.
+    /// The least index of a partner of sphere `i` in a list of pairs: the lower index comes first,
+    /// and two fixed spheres form no pair.
     #[inline]
     pub(crate) fn first_partner(&self, i: usize) -> usize {
         (i + 1).max(self.fixed)
@@ -238,11 +236,11 @@ pub struct Sphere {
     pub mass: f64,
     /// Moment of inertia (kg m2), in a scene with rotation.
     pub inertia: Option<f64>,
-    /// What acts on it already (N): velocity Verlet begins its step with that.
+    /// The force on it at entry (N), with which velocity Verlet begins its step.
     pub force: Vector,
 }
 
-/// Keeps the entries that are to be kept; leaves an array alone that has none at all.
+/// Keeps the entries that are marked; leaves an empty array alone.
 pub(crate) fn retain<T>(entries: &mut Vec<T>, keep: &[bool]) {
     let mut keep = keep.iter();
     entries.retain(|_| keep.next().is_none_or(|keep| *keep));

@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
 
-/// A vector in space. In memory it is a row of four numbers, which a processor takes and adds up in
-/// one go.
+/// A vector in space. In memory it is a row of four numbers, which a processor loads and adds at
+/// once.
 #[derive(Clone, Copy, Default, Serialize, Deserialize)]
 #[repr(C, align(32))]
 pub struct Vector {
@@ -16,7 +16,7 @@ pub struct Vector {
     pub y: f64,
     /// Component along z.
     pub z: f64,
-    /// Fills up the row, and means nothing.
+    /// Padding without meaning.
     #[serde(skip)]
     rest: f64,
 }
@@ -31,13 +31,13 @@ impl Vector {
         Self { x, y, z, rest: 0.0 }
     }
 
-    /// Its row of numbers, the last of which means nothing.
+    /// Its row of numbers. The last has no meaning.
     #[inline(always)]
     pub(crate) const fn row(&self) -> [f64; 4] {
         [self.x, self.y, self.z, self.rest]
     }
 
-    /// The vector of a row, whose last number means nothing.
+    /// The vector of a row, whose last number has no meaning.
     #[inline(always)]
     pub(crate) const fn of_row([x, y, z, rest]: [f64; 4]) -> Self {
         Self { x, y, z, rest }

@@ -49,7 +49,7 @@ impl Page {
                 }
             }
             Kind::List(entry) => self.tables(&format!("{path}[]"), entry),
-            // A scene within a sweep has its own chapter.
+            // A scene within a sweep has a separate chapter.
             Kind::Either(_) if path == "scene" => {}
             Kind::Either(kinds) => kinds.iter().for_each(|kind| self.tables(path, kind)),
             Kind::Text
@@ -93,10 +93,10 @@ impl Page {
     }
 }
 
-/// A table as a file would head it.
+/// The heading of a table, as in a file.
 fn heading(path: &str) -> String {
     match path.strip_suffix("[]") {
-        // The one list of tables that is long enough to be written so.
+        // The only list of tables that is long enough for this form.
         Some("axis") => "`[[axis]]`".to_owned(),
         Some(list) => format!("Entries of `{list}`"),
         None => format!("`[{path}]`"),

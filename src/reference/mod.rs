@@ -1,5 +1,5 @@
-//! What files may say, for editors and for readers: all of it follows from the schemas of the
-//! structs that files end in. `docs/` holds what these functions return; a test compares.
+//! Allowed contents of files, for editors and for readers. It all follows from the schemas of the
+//! structs into which files are read. `docs/` holds the output of these functions; a test compares.
 
 mod keys;
 mod notation;
@@ -19,11 +19,11 @@ use serde_json::{Value, json};
 pub enum File {
     /// One simulation.
     Scene,
-    /// A scene, and what is varied in it.
+    /// A scene and its axes.
     Sweep,
-    /// A scene, and the two keys over which integrators are tried.
+    /// A scene and the two keys over which integrators are tested.
     Stability,
-    /// A scene or sweep, and the settings whose cost and error are measured.
+    /// A scene or sweep and the settings whose cost and error are measured.
     Accuracy,
 }
 
@@ -54,7 +54,7 @@ impl File {
 /// The JSON schema (draft 7, which editors know best) of a kind of file.
 ///
 /// It refuses what the loader refuses for a single key: unknown and missing keys, wrong types,
-/// numbers out of range. What concerns several keys at once only the loader finds.
+/// numbers out of range. Only the loader finds problems that concern several keys.
 pub fn schema(file: File) -> Value {
     let mut schema = file.schema().json.clone();
     schema["title"] = json!(format!("phase {} file", file.name()));
@@ -65,8 +65,8 @@ pub fn schema(file: File) -> Value {
 /// Keys of `time` that the key `accuracy` of a scene chooses; spots need no time step.
 const CHOSEN: [&str; 2] = ["dt", "frame_interval"];
 
-/// Makes keys of `time` needed in scenes without `accuracy` and without spots only. The program
-/// chooses them before it checks keys, so that its own table of keys has them as needed.
+/// Makes keys of `time` required only in scenes without `accuracy` and without spots. The program
+/// chooses them before it checks keys, so its own table of keys requires them.
 fn need_times_without_accuracy(schema: &mut Value) {
     match schema {
         Value::Array(entries) => entries.iter_mut().for_each(need_times_without_accuracy),

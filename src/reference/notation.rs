@@ -15,7 +15,7 @@ Symbol, unit and name of every numeric key of a scene, as figures write them. Th
 
 /// The table of symbols, in Markdown.
 pub fn notation() -> String {
-    // Several laws may have a key of one name; their units differ.
+    // Several laws may have keys with the same name but different units.
     let mut rows: Vec<(String, &Quantity, Vec<&str>)> = Vec::new();
     SCENE.kind.visit("", &mut |path, key| {
         let Some(quantity) = key.quantity.as_ref().filter(|it| !it.symbol.is_empty()) else {

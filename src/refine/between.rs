@@ -1,17 +1,16 @@
-//! What is taken for true between two places: logarithms of probabilities change at a constant
-//! rate. Tables and pictures of borders both follow it.
+//! Interpolation between two places: logarithms of probabilities change at a constant rate. Tables
+//! and pictures of borders both use it.
 
 /// A change of the most probable label on the way from one place to another.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Change {
-    /// Where it is, as a share of the way.
+    /// Where it is, as a fraction of the distance.
     pub(super) share: f64,
     /// The label before it and the label after it, as indices.
     pub(super) labels: [usize; 2],
 }
 
-/// Whether a label is at least as probable as another; of equals the first is the more probable
-/// one.
+/// Whether a label is more probable than another; among equals the first wins.
 pub(super) fn is_ahead(logs: &[f64], label: usize, other: usize) -> bool {
     match label < other {
         true => logs[label] >= logs[other],
@@ -19,12 +18,12 @@ pub(super) fn is_ahead(logs: &[f64], label: usize, other: usize) -> bool {
     }
 }
 
-/// Where two labels whose order changes between two places are equally probable, as a share of the
-/// way. `logs` are the logarithms of the probabilities of all labels at both places.
+/// Where two labels whose order changes between two places are equally probable, as a fraction of
+/// the distance. `logs` are the logarithms of the probabilities of all labels at both places.
 pub(super) fn equal(logs: [&[f64]; 2], one: usize, other: usize) -> f64 {
     let [from, to] = logs.map(|at| at[one] - at[other]);
     let share = from / (from - to);
-    // Labels that are equally probable at both places have no place of their own.
+    // Labels that are equally probable at both places have no unique crossing.
     if share.is_finite() { share } else { 0.5 }
 }
 
@@ -67,8 +66,8 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// Symptom: `borders.csv` had a border of two labels between which a third one is the most
-    /// probable. Cause: only the labels at both ends were looked at.
+    /// Symptom: `borders.csv` had a border between two labels although a third is the most probable
+    /// between them. Cause: only the labels at both ends were compared.
     #[test]
     fn a_label_between_two_others_has_both_borders() {
         let (from, to) = ([0.0, -1.0, -4.0], [-4.0, -1.0, 0.0]);

@@ -10,7 +10,7 @@ const ENDS: [f64; 2] = [0.16, 0.025];
 /// Where the most probable label changes along one axis, in one column of the map.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Crossing {
-    /// Value on each axis; on the axis that is crossed, that of the border.
+    /// Value on each axis; on the axis that is crossed, the border's value.
     pub values: Vec<f64>,
     /// Label below the border and label above it.
     pub labels: [Code; 2],
@@ -31,7 +31,7 @@ pub struct Borders {
     pub crossings: Vec<Crossing>,
 }
 
-/// How well the border of two labels is known.
+/// How well the border between two labels is known.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Width {
     /// The two labels, the smaller code first.
@@ -51,12 +51,13 @@ impl Borders {
     ///
     /// Between two neighbouring places, a crossing lies where the probabilities of both labels are
     /// equal, and greater than all others, if their logarithms change at a constant rate. So there
-    /// may be several: from one label to another through a third. The band reaches as far down as
-    /// the label of the upper side is probable (2.5 % for the band of 95 %), and as far up as the
-    /// label of the lower side is: for a single border these are the quantiles of the place where
-    /// the label of one seed changes. So it holds both what the model does not know and
-    /// what seeds change. Nothing is known between the two places: if both are sure of their
-    /// labels, the border is anywhere between them, and the band of 95 % takes 95 % of the way.
+    /// may be several crossings: from one label to another through a third. The band reaches as far
+    /// down as the label of the upper side is probable (2.5 % for the band of 95 %), and as far up
+    /// as the label of the lower side is: for a single border these are the quantiles of the place
+    /// where the label of one seed changes. So the band includes both the uncertainty of the model
+    /// and the scatter of seeds. Nothing is known between the two places: if both are certain of
+    /// their labels, the border is anywhere between them, and the band of 95 % covers 95 % of the
+    /// distance.
     ///
     /// # Errors
     /// If the lattice has no such axis.
@@ -137,8 +138,8 @@ impl Borders {
     }
 }
 
-/// How well each pair of neighbouring labels is told apart, by their codes: along the axis on which
-/// their mean width is smallest, because an axis along a border says little of it.
+/// How well each pair of neighbouring labels is separated, by their codes: along the axis on which
+/// their mean width is smallest, because an axis parallel to a border says little about it.
 pub fn widths(lattice: &Lattice, map: &ProbabilityMap) -> Vec<Width> {
     let mut narrowest: Vec<Width> = Vec::new();
     for axis in 0..lattice.axes().len() {
@@ -182,7 +183,7 @@ impl Column<'_> {
         ENDS.map(band)
     }
 
-    /// The place at this share of the way from `step - 1` to `step`.
+    /// The place at this fraction of the distance from `step - 1` to `step`.
     fn between(&self, step: usize, share: f64) -> f64 {
         self.units[step - 1] + share * (self.units[step] - self.units[step - 1])
     }

@@ -1,10 +1,10 @@
-//! Which places are run next.
+//! The choice of the places to run next.
 
 use super::lattice::square_distance;
 use super::{Lattice, Observations, ProbabilityMap, Run, Settings};
 
-/// How much a run at a place is wanted, from 0 to 1: the more, the less the two most probable
-/// labels differ.
+/// How much a run at a place is wanted, from 0 to 1: more if the probabilities of the two most
+/// probable labels differ less.
 fn score(map: &ProbabilityMap, place: usize) -> f64 {
     let at = map.at(place);
     let best = map.best(place);
@@ -13,17 +13,17 @@ fn score(map: &ProbabilityMap, place: usize) -> f64 {
     1.0 - (at[best] - second)
 }
 
-/// What is known of each place while a round is chosen.
+/// The state of each place while a round is chosen.
 pub(super) struct Candidates<'a> {
     lattice: &'a Lattice,
     settings: &'a Settings,
-    /// How much a run is wanted, less for every run of the round nearby.
+    /// How much a run is wanted, reduced by nearby runs of the round.
     scores: Vec<f64>,
     /// Squared distance from the nearest run.
     gaps: Vec<f64>,
-    /// Seeds that each place has been run with.
+    /// Number of seeds with which each place has been run.
     seeds: Vec<Vec<u64>>,
-    /// Squared distance at which runs of one round keep from each other.
+    /// Squared distance that runs of one round keep from each other.
     separation: f64,
 }
 
@@ -35,7 +35,7 @@ impl<'a> Candidates<'a> {
         settings: &'a Settings,
     ) -> Self {
         let count = lattice.places();
-        // Half the mean spacing of the runs, as if they were everywhere.
+        // Half the mean spacing of the runs, as if they filled the lattice evenly.
         let spacing = libm::pow(runs.len() as f64, -1.0 / lattice.axes().len() as f64);
         let mut candidates = Self {
             lattice,
@@ -50,7 +50,7 @@ impl<'a> Candidates<'a> {
                 candidates.note(&unit, run.seed);
             }
         }
-        // Where a place nearby tells as much, it is better than one more seed.
+        // A nearby place that is equally informative is better than one more seed.
         for (score, seeds) in candidates.scores.iter_mut().zip(&candidates.seeds) {
             *score /= (1 + seeds.len()) as f64;
         }
@@ -73,19 +73,19 @@ impl<'a> Candidates<'a> {
         (self.seeds[place].len() as u64) < self.settings.replicates
     }
 
-    /// The place to explore: that farthest from all runs, the most wanted of equals.
+    /// The place to explore: the farthest from all runs; among equals the most wanted.
     pub(super) fn farthest(&self) -> Option<usize> {
         let new = (0..self.gaps.len()).filter(|place| self.seeds[*place].is_empty());
         first_largest(new, |place| (self.gaps[place], self.scores[place]))
     }
 
-    /// The most wanted place, the farthest from all runs of equals.
+    /// The most wanted place; among equals the farthest from all runs.
     pub(super) fn wanted(&self) -> Option<usize> {
         let open = (0..self.gaps.len()).filter(|place| self.is_open(*place));
         first_largest(open, |place| (self.scores[place], self.gaps[place]))
     }
 
-    /// Adds a run at a place, with the first seed that it has not been run with.
+    /// Adds a run at a place, with its first unused seed.
     pub(super) fn take(&mut self, place: usize) -> Run {
         let first = self.settings.first_seed;
         let seeds = &self.seeds[place];
@@ -104,7 +104,7 @@ impl<'a> Candidates<'a> {
     }
 }
 
-/// The place with the largest pair of numbers, the first of equals.
+/// The place with the largest pair of numbers; among equals the first.
 fn first_largest(
     places: impl Iterator<Item = usize>,
     numbers: impl Fn(usize) -> (f64, f64),

@@ -8,8 +8,8 @@ pub(crate) struct Matrix {
 }
 
 impl Matrix {
-    /// The matrix with these entries; only those on and below the diagonal are asked for, and the
-    /// others mirror them.
+    /// The symmetric matrix with these entries; only entries on and below the diagonal are
+    /// computed.
     pub(crate) fn symmetric(size: usize, entry: impl Fn(usize, usize) -> f64) -> Self {
         let mut entries = vec![0.0; size * size];
         for row in 0..size {
@@ -45,9 +45,9 @@ impl Matrix {
 pub(crate) struct Cholesky(Matrix);
 
 impl Cholesky {
-    /// Factors the matrix with these entries on and below the diagonal. A pivot that rounding
-    /// makes smaller than 1e-12 is taken as 1e-12: callers pass matrices of which the pivots are 1
-    /// or more, or have noise added on the diagonal.
+    /// Factors the matrix with these entries on and below the diagonal. A pivot that rounding makes
+    /// smaller than 1e-12 is replaced by 1e-12: callers pass matrices with pivots of 1 or more, or
+    /// with noise added on the diagonal.
     pub(crate) fn new(size: usize, entry: impl Fn(usize, usize) -> f64) -> Self {
         let mut entries = vec![0.0; size * size];
         for row in 0..size {
@@ -92,7 +92,7 @@ impl Cholesky {
         2.0 * diagonal.sum::<f64>()
     }
 
-    /// x with L x = b for several b side by side, in place: the entries of one row stand together.
+    /// x with L x = b for several b side by side, in place: the entries of one row are adjacent.
     /// All b are 0 before row `first`, where the vectors start.
     pub(crate) fn solve_lower_lanes(&self, first: usize, vectors: &mut [Lanes]) {
         for row in first..self.0.size {
@@ -127,7 +127,7 @@ impl Cholesky {
     }
 }
 
-/// Number of vectors that are solved for side by side.
+/// Number of vectors that are solved side by side.
 pub(crate) const LANES: usize = 8;
 
 /// The entries of one row of these vectors.
@@ -145,7 +145,7 @@ pub(crate) fn squared_lengths(vectors: &[Lanes]) -> Lanes {
 }
 
 /// Sum of products, in eight partial sums of fixed order, so that compilers can use vectors of any
-/// width without a change of bits.
+/// width without changing bits.
 pub(crate) fn dot(one: &[f64], other: &[f64]) -> f64 {
     let mut sums = [0.0; 8];
     let (blocks, rest) = one.as_chunks::<8>();

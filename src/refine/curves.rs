@@ -2,8 +2,8 @@
 //!
 //! A square of four places is cut into four triangles by its centre, where logarithms have the mean
 //! of its corners; in a triangle they are linear. So the regions in which a label is the most
-//! probable one fill the plane without gaps: their borders end at the sides of the plane or where
-//! three of them meet, and cross the lines between places where [`Borders`](super::Borders) do.
+//! probable fill the plane without gaps: their borders end at the sides of the plane or where three
+//! of them meet, and they cross the lines between places where [`Borders`](super::Borders) do.
 
 use super::between::{equal, is_ahead};
 use super::{Code, Lattice, ProbabilityMap};
@@ -21,28 +21,28 @@ pub struct Panel<'a> {
     pub map: &'a ProbabilityMap,
     /// Axis to the right.
     pub x: usize,
-    /// Axis upwards, another than `x`.
+    /// Axis upwards, different from `x`.
     pub y: usize,
-    /// A place in the plane: its indices on the other axes are those of the plane.
+    /// A place in the plane: its indices on the other axes define the plane.
     pub place: usize,
 }
 
 /// A corner of triangles: twice its indices along x and y, which are odd at centres of squares.
 type Node = [usize; 2];
 
-/// What tells points of curves apart.
+/// Identity of a point of a curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Vertex {
-    /// On the edge between two nodes, the lesser first.
+    /// On the edge between two nodes, the smaller first.
     Edge(Node, Node),
-    /// In the triangle of these nodes, where a third label is as probable.
+    /// In the triangle of these nodes, where a third label is equally probable.
     Junction([Node; 3], usize),
 }
 
 /// A point of a curve, in the scales of the axes.
 type Point = (Vertex, [f64; 2]);
 
-/// A triangle: its nodes, and functions that are linear in it, by their values there.
+/// A triangle: its nodes, and the values there of functions that are linear in it.
 struct Triangle<'a> {
     nodes: [Node; 3],
     /// Places of the nodes, in the scales of the axes.
@@ -51,7 +51,7 @@ struct Triangle<'a> {
 }
 
 impl Panel<'_> {
-    /// The border of two labels: where they are the two most probable ones, and equally so.
+    /// The border of two labels: where they are the most probable labels, equally so.
     pub fn border(&self, one: Code, other: Code) -> Vec<Curve> {
         let (Some(one), Some(other)) = (self.label(one), self.label(other)) else {
             return Vec::new();
@@ -148,7 +148,7 @@ impl Panel<'_> {
 }
 
 impl Triangle<'_> {
-    /// Where two functions, the lesser index first, are equal: from edge to edge.
+    /// Where two functions, the smaller index first, are equal: from edge to edge.
     fn line(&self, labels: [usize; 2]) -> Option<[Point; 2]> {
         let [from, to] = self.ends(labels)?;
         Some([self.on(from, labels), self.on(to, labels)])
@@ -190,7 +190,7 @@ impl Triangle<'_> {
         let is_ahead = self.values.map(|values| is_ahead(values, one, other));
         let alone =
             (0..3).find(|&node| (0..3).all(|it| it == node || is_ahead[it] != is_ahead[node]))?;
-        // From the lesser node, so that both triangles of an edge find the same point.
+        // From the smaller node, so that both triangles of an edge find the same point.
         let edge = |other: usize| match self.nodes[alone] < self.nodes[other] {
             true => [alone, other],
             false => [other, alone],
@@ -198,7 +198,7 @@ impl Triangle<'_> {
         Some([edge((alone + 1) % 3), edge((alone + 2) % 3)])
     }
 
-    /// Where two functions are equal on an edge, as a share of it.
+    /// Where two functions are equal on an edge, as a fraction of it.
     fn share(&self, edge: [usize; 2], [one, other]: [usize; 2]) -> f64 {
         equal(edge.map(|node| self.values[node]), one, other)
     }
@@ -228,7 +228,7 @@ impl Triangle<'_> {
     }
 }
 
-/// Vertices one after the other as they are joined, open chains first.
+/// Vertices in the order in which they are joined, open chains first.
 fn chains(mut joined: BTreeMap<Vertex, Vec<Vertex>>) -> Vec<Vec<Vertex>> {
     let ends = joined.iter().filter(|(_, next)| next.len() == 1);
     let ends: Vec<Vertex> = ends.map(|(vertex, _)| *vertex).collect();

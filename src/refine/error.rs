@@ -19,8 +19,7 @@ pub enum RefineError {
         /// What is wrong with it.
         reason: &'static str,
     },
-    /// A place has another number of values than the lattice has axes, or one that is not finite
-    /// on an axis.
+    /// A place has the wrong number of values, or one that is not finite on an axis.
     #[error("the place {values:?} does not lie on the {axes} axes")]
     Place {
         /// Value on each axis.
@@ -28,7 +27,7 @@ pub enum RefineError {
         /// Number of axes.
         axes: usize,
     },
-    /// One place and one seed have two different labels.
+    /// A place and seed have two different labels.
     #[error("the run at {values:?} with seed {seed} has the labels {first} and {second}")]
     Contradiction {
         /// Value on each axis.

@@ -1,4 +1,4 @@
-//! What runs may have missed.
+//! Regions that runs may have missed.
 
 use super::lattice::square_distance;
 use super::{Lattice, Observations, RefineError};
@@ -6,12 +6,12 @@ use super::{Lattice, Observations, RefineError};
 /// The largest part of the lattice without a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Gap {
-    /// Value on each axis of the place that is farthest from all runs.
+    /// Value on each axis of the place farthest from all runs.
     pub values: Vec<f64>,
-    /// Distance from there to the nearest run. The axes are taken as 1 long, in their scales.
+    /// Distance from there to the nearest run. Axes have length 1, in their scales.
     ///
-    /// A region of one label which holds a ball that is centred at a place of the lattice, and
-    /// larger than this radius, has been run at least once. Smaller regions may have been missed.
+    /// A region of one label that contains a ball of more than this radius about a place of the
+    /// lattice has been run at least once. Smaller regions may have been missed.
     pub radius: f64,
 }
 

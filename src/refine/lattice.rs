@@ -13,7 +13,7 @@ pub enum Scale {
     Rank,
 }
 
-/// One axis: a parameter of the runs and the values that candidates for runs have.
+/// One axis: a parameter of the runs and the values of candidates for runs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
     name: String,
@@ -25,7 +25,7 @@ impl Axis {
     /// An axis with these values in ascending order, in any unit.
     ///
     /// # Errors
-    /// If there are no values, if they are not finite or do not ascend, and if they are not above 0
+    /// If there are no values, if they are not finite or do not ascend, or if they are not above 0
     /// on a logarithmic axis.
     pub fn new(name: &str, values: Vec<f64>, scale: Scale) -> Result<Self, RefineError> {
         let refuse = |reason| {
@@ -89,7 +89,7 @@ impl Axis {
     }
 
     /// Place of a value between the first value (0) and the last (1), in the scale of the axis;
-    /// below 0 and above 1 outside of them. It is 0 on an axis of one value.
+    /// below 0 and above 1 outside of them. It is 0 on an axis with one value.
     pub fn unit(&self, value: f64) -> f64 {
         let last = self.values.len() - 1;
         let (from, to) = (self.values[0], self.values[last]);
@@ -221,10 +221,10 @@ impl Lattice {
         &self.units[place * axes..(place + 1) * axes]
     }
 
-    /// Where these values lie in the unit cube; places off the lattice are welcome.
+    /// Where these values lie in the unit cube; they may be off the lattice.
     ///
     /// # Errors
-    /// If there are not as many as axes, or if one has no finite place on its axis.
+    /// If their number differs from the number of axes, or if one has no finite place on its axis.
     pub fn unit_of(&self, values: &[f64]) -> Result<Vec<f64>, RefineError> {
         let axes = self.axes.iter().zip(values);
         let unit: Vec<f64> = axes.map(|(axis, value)| axis.unit(*value)).collect();

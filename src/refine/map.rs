@@ -12,8 +12,8 @@ pub struct ProbabilityMap {
 }
 
 impl ProbabilityMap {
-    /// What a fitted model says of all places. `codes` are the labels that it has learnt, as in
-    /// [`Training::codes`](super::Training::codes).
+    /// The predictions of a fitted model for all places. `codes` are the labels that it has learnt,
+    /// as in [`Training::codes`](super::Training::codes).
     pub fn new(lattice: &Lattice, codes: &[Code], fitted: &dyn Fitted) -> Self {
         let units: Vec<&[f64]> = (0..lattice.places())
             .map(|place| lattice.unit(place))
@@ -47,7 +47,7 @@ impl ProbabilityMap {
         logs.collect()
     }
 
-    /// The most probable label of a place, as an index into the codes; the first of equals.
+    /// The most probable label of a place, as an index into the codes; among equals the first.
     pub fn best(&self, place: usize) -> usize {
         let at = self.at(place);
         (1..at.len()).fold(
@@ -66,7 +66,7 @@ impl ProbabilityMap {
         self.at(place)[self.best(place)]
     }
 
-    /// The map with the labels of equal `code_of` put together: their probabilities are added.
+    /// The map with labels of equal `code_of` merged: their probabilities are added.
     pub fn merged(&self, code_of: impl Fn(Code) -> Code) -> Self {
         let mut codes: Vec<Code> = self.codes.iter().map(|code| code_of(*code)).collect();
         codes.sort_unstable();

@@ -1,13 +1,13 @@
 //! Which runs a phase diagram needs.
 //!
-//! A full grid of runs is mostly far from any border between labels. Here a coarse grid is run
-//! first, and then rounds of runs where the label is least certain. What comes out is a probability
+//! Most runs of a full grid are far from any border between labels. Here a coarse grid is run
+//! first, and then rounds of runs where the label is least certain. The result is the probability
 //! of each label at each place ([`ProbabilityMap`]), and the borders with bands ([`Borders`],
-//! [`Panel`]). Bands hold what is not known for lack of runs, and what changes with the seed.
+//! [`Panel`]). Bands include both the uncertainty from too few runs and the scatter of seeds.
 //!
-//! Everything is a function of the axes, the settings and the labels alone. The mathematical
-//! functions are those of `libm`, all sums have a fixed order, and there are no threads: bits are
-//! the same on all machines.
+//! Everything is a function of the axes, the settings and the labels only. Mathematical functions
+//! come from `libm`, all sums have a fixed order, and there are no threads: bits are the same on
+//! all machines.
 //!
 //! ```
 //! use phase::refine::{Axis, Borders, Lattice, Round, Rounds, Scale, Settings};

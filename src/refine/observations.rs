@@ -29,7 +29,7 @@ impl Run {
 }
 
 /// Runs and their labels, ordered by place and seed: nothing depends on the order in which runs
-/// end.
+/// finish.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Observations {
     runs: Vec<(Run, Code)>,
@@ -41,10 +41,10 @@ impl Observations {
         Self::default()
     }
 
-    /// Adds a run. A run that is there already, with the same label, is not added again.
+    /// Adds a run. A known run with the same label is not added again.
     ///
     /// # Errors
-    /// If the run is there with another label.
+    /// If the run is known with another label.
     pub fn add(&mut self, run: Run, label: Code) -> Result<(), RefineError> {
         match self.runs.binary_search_by(|(other, _)| other.order(&run)) {
             Ok(index) if self.runs[index].1 == label => Ok(()),
@@ -61,7 +61,7 @@ impl Observations {
         }
     }
 
-    /// The label of a run, if it is there.
+    /// The label of a run, if it is known.
     pub fn label(&self, run: &Run) -> Option<Code> {
         let place = self.runs.binary_search_by(|(other, _)| other.order(run));
         place.ok().map(|place| self.runs[place].1)
@@ -83,7 +83,7 @@ impl Observations {
     }
 }
 
-/// Runs as models see them: places in the unit cube and labels counted from 0.
+/// Runs in the form that models take: places in the unit cube and labels counted from 0.
 #[derive(Clone, Debug)]
 pub struct Training {
     axes: usize,

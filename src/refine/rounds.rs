@@ -32,7 +32,7 @@ pub fn probabilities(
 }
 
 /// The runs of the coarse grid, in the order of the lattice: values of each axis at equal steps of
-/// its list, the first and the last among them; the middle value where one is asked for.
+/// its list, including the first and the last; the middle value if only one is requested.
 pub(crate) fn start(lattice: &Lattice, settings: &Settings) -> Vec<Run> {
     let axes = lattice.axes().iter().enumerate();
     let chosen: Vec<Vec<usize>> = axes
@@ -63,7 +63,7 @@ pub(crate) fn start(lattice: &Lattice, settings: &Settings) -> Vec<Run> {
 /// What comes next.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Round {
-    /// These runs are made and learnt, all of them, before the next round is asked for.
+    /// All of these runs must be made and learnt before the next round is requested.
     Runs(Vec<Run>),
     /// No more runs are made.
     Finished(Finish),
@@ -72,15 +72,15 @@ pub enum Round {
 /// The rounds of a refined diagram: first the coarse grid, then runs where the label is least
 /// certain.
 ///
-/// The runs depend on the axes, the settings, and the labels so far, and not on the order in which
+/// The runs depend on the axes, the settings and the labels so far, but not on the order in which
 /// the runs of a round are learnt. So after a stop the same rounds are chosen again: learn the
-/// labels that are known already, and make the runs that are not.
+/// known labels, and make the missing runs.
 #[derive(Clone, Debug)]
 pub struct Rounds {
     lattice: Lattice,
     settings: Settings,
     runs: Observations,
-    /// What is learnt from the runs, if that has been asked for.
+    /// The probabilities learnt from the runs, if they have been requested.
     map: Option<ProbabilityMap>,
 }
 
@@ -143,7 +143,7 @@ impl Rounds {
         &self.runs
     }
 
-    /// What the runs so far tell.
+    /// The probabilities learnt from the runs so far.
     ///
     /// # Errors
     /// If there are no runs, or if one does not lie on the axes.
@@ -176,7 +176,7 @@ impl Rounds {
         let after_start = runs.len().saturating_sub(start(lattice, settings).len());
         let left = settings.budget.saturating_sub(runs.len());
         for number in after_start..after_start + settings.round.min(left) {
-            // A share of the numbers: those at which the product passes a whole number.
+            // A share of the runs: those at which the product passes a whole number.
             let passed = |number: usize| libm::floor(number as f64 * settings.exploring + 1e-9);
             let place = match passed(number + 1) > passed(number) {
                 true => candidates.farthest().or_else(|| candidates.wanted()),
@@ -189,8 +189,8 @@ impl Rounds {
     }
 }
 
-/// Whether all borders are as narrow as wanted. Without a border the map is not known to have one
-/// label only, so that runs go on.
+/// Whether all borders are as narrow as wanted. Without any border, a second label may still be
+/// hidden, so runs continue.
 fn is_narrow(lattice: &Lattice, settings: &Settings, map: &ProbabilityMap) -> bool {
     let Some(wanted) = settings.width else {
         return false;

@@ -10,10 +10,10 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Settings {
-    /// Most runs in total. Refining ends when they are made.
+    /// Largest number of runs in total. Refining ends when they are made.
     pub budget: usize,
     /// Wanted mean width of the 95 % band of every border, as a share of the axis that it crosses.
-    /// Refining ends when all are as narrow. Absent: the budget is spent.
+    /// Refining ends when all bands are this narrow. Absent: the whole budget is spent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub width: Option<f64>,
     /// Number of values of each axis in the coarse grid at the start: one number for all axes, or
@@ -23,16 +23,15 @@ pub struct Settings {
     /// Runs in one round (default 8). Labels of a round do not change its other runs.
     #[serde(default = "default_round")]
     pub round: usize,
-    /// Most seeds that one place is run with (default 3). A place that has been run is run again
-    /// only where its neighbours tell less: where labels change with the seed, and the places are
-    /// far apart.
+    /// Largest number of seeds per place (default 3). A place is run again only if its neighbours
+    /// are less informative: where labels change with the seed, and the places are far apart.
     #[serde(default = "default_replicates")]
     pub replicates: u64,
-    /// The first seed (default 1); replicates have the seeds that follow.
+    /// The first seed (default 1); replicates have the following seeds.
     #[serde(default = "default_first_seed")]
     pub first_seed: u64,
-    /// Share of the runs after the start that go to the places farthest from all runs
-    /// (default 0.125), to find regions that the coarse grid has missed.
+    /// Share of the runs after the start that go to the places farthest from all runs (default
+    /// 0.125), to find regions that the coarse grid missed.
     #[serde(default = "default_exploring")]
     pub exploring: f64,
     /// How probabilities of labels are learnt from runs (default `propagation`).

@@ -5,7 +5,7 @@ use super::palette::Palette;
 use super::{Image, Rgb};
 use std::borrow::Cow;
 
-/// Pictures of equal size that follow each other, in at most 256 colours, for ever.
+/// A loop of pictures of equal size, in at most 256 colours.
 pub struct Animation {
     width: usize,
     height: usize,
@@ -33,10 +33,10 @@ impl Animation {
     }
 
     /// The animation as a PNG file (APNG), with texts (keyword, text) in its metadata. Programs
-    /// that know no animations show the first picture.
+    /// without support for animations show the first picture.
     ///
     /// # Errors
-    /// What the encoder says, of a picture without pixels, say.
+    /// Errors of the encoder, for example for a picture without pixels.
     pub fn to_apng(&self, texts: &[(&str, String)]) -> Result<Vec<u8>, png::EncodingError> {
         let mut file = Vec::new();
         let side = |length: usize| u32::try_from(length).unwrap_or(u32::MAX);
@@ -45,7 +45,7 @@ impl Animation {
         encoder.set_depth(png::BitDepth::Eight);
         encoder.set_palette(self.colors.concat());
         encoder.set_compression(png::Compression::High);
-        // Indices of neighbours have nothing to do with each other.
+        // Indices of neighbouring pixels are unrelated.
         encoder.set_filter(png::Filter::NoFilter);
         encoder.set_animated(side(self.frames.len()), 0)?;
         encoder.set_frame_delay(self.delay, 100)?;
@@ -61,10 +61,10 @@ impl Animation {
     /// The animation as a GIF file.
     ///
     /// # Errors
-    /// What the encoder says, of a picture larger than the 65535 pixels that GIF allows, say.
+    /// Errors of the encoder, for example for a picture larger than the 65535 pixels of GIF.
     pub fn to_gif(&self) -> Result<Vec<u8>, gif::EncodingError> {
         let mut file = Vec::new();
-        // Too large for GIF becomes too small for it, and is refused.
+        // A size too large for GIF becomes 0, which is refused.
         let side = |length: usize| u16::try_from(length).unwrap_or(0);
         let (width, height) = (side(self.width), side(self.height));
         let mut encoder = gif::Encoder::new(&mut file, width, height, &self.colors.concat())?;

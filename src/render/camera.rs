@@ -8,17 +8,17 @@ use crate::particles::vector::Vector;
 pub struct Camera {
     /// Unit vector to the right of the picture.
     pub(super) right: Vector,
-    /// Unit vector to its top.
+    /// Unit vector to the top of the picture.
     pub(super) up: Vector,
     /// Unit vector from the scene to the viewer.
     pub(super) viewer: Vector,
-    /// What the centre of the picture shows (m).
+    /// The point at the centre of the picture (m).
     pub(super) centre: Vector,
     /// Width and height of the view (m).
     view: [f64; 2],
 }
 
-/// White around what is seen, over its size.
+/// White margin, over the size of the view.
 const MARGIN: f64 = 0.02;
 
 impl Camera {
@@ -32,7 +32,7 @@ impl Camera {
         Self::raised(stage, 90.0)
     }
 
-    /// From the side and above, `elevation` in degrees: 0 is the side view, 90 the view from above.
+    /// From the side and above; `elevation` in degrees: 0 is the side view, 90 the view from above.
     pub fn raised(stage: &Stage, elevation: f64) -> Self {
         let (sine, cosine) = match elevation {
             0.0 => (0.0, 1.0),
@@ -46,7 +46,7 @@ impl Camera {
             centre: Vector::ZERO,
             view: [0.0; 2],
         };
-        // The view is the least rectangle around the stage.
+        // The view is the smallest rectangle around the stage.
         let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         for [across, along] in stage.outline(camera.up) {
             for (axis, value) in [across, along].into_iter().enumerate() {
@@ -62,7 +62,7 @@ impl Camera {
         camera
     }
 
-    /// Width over height of the view: a picture of these proportions wastes no paper.
+    /// Width over height of the view: a picture of these proportions has no empty margins.
     pub fn aspect(&self) -> f64 {
         self.view[0] / self.view[1]
     }
@@ -72,7 +72,7 @@ impl Camera {
         self.view
     }
 
-    /// Pixels per metre in a picture of that size.
+    /// Pixels per metre in a picture of this size.
     pub fn scale(&self, width: usize, height: usize) -> f64 {
         (width as f64 / self.view[0]).min(height as f64 / self.view[1])
     }

@@ -1,21 +1,21 @@
-//! What the colours of the spheres stand for.
+//! The meaning of the spheres' colours.
 
 use crate::color::ColorMap;
-use crate::measure::{Centres, Layers, Walls, voronoi_cells};
+use crate::measure::{CellBounds, Centres, Layers, voronoi_cells};
 use crate::observe::Snapshot;
 use std::f64::consts::PI;
 
 /// Red, green and blue.
 pub type Rgb = [u8; 3];
 
-/// What the colours of the spheres stand for.
+/// The meaning of the spheres' colours.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ColorBy {
-    /// Nothing: all have one colour.
+    /// No meaning: all spheres have one colour.
     Nothing,
     /// Speed, from zero to `fastest` (m/s).
     Speed {
-        /// The speed of the last colour; faster spheres have it, too.
+        /// The speed of the last colour; faster spheres have it too.
         fastest: f64,
     },
     /// Height of the centre, from `low` to `high` (m).
@@ -32,32 +32,33 @@ pub enum ColorBy {
         /// The radius of the last colour.
         high: f64,
     },
-    /// Index of the sphere: neighbours in the list differ, so that single spheres can be followed.
+    /// Index of the sphere: consecutive indices differ in colour, so that single spheres can be
+    /// followed.
     Index,
-    /// The layer in which a sphere started, two colours by turns.
+    /// The layer in which a sphere started, in two alternating colours.
     Layer {
         /// Thickness of a layer (m).
         thickness: f64,
-        /// The layer of every sphere that was there at the start.
+        /// The layer of every sphere that was in at the start.
         of: Vec<Option<usize>>,
     },
-    /// Packing fraction: volume of the sphere over that of its Voronoi cell, from
+    /// Packing fraction: volume of the sphere over the volume of its Voronoi cell, from
     /// [`LOOSEST`](Self::LOOSEST) to [`DENSEST`](Self::DENSEST).
     PackingFraction {
         /// Where cells end.
-        walls: Walls,
+        walls: CellBounds,
     },
 }
 
-/// Colours of layers, by turns (those of Okabe and Ito, 2008).
+/// Alternating colours of layers (Okabe and Ito, 2008).
 const LAYERS: [Rgb; 2] = [[0xf0, 0xe4, 0x42], [0x56, 0xb4, 0xe9]];
 /// How far cells reach from centres at a free surface, in diameters.
 const FARTHEST: f64 = 0.75;
 
-/// Colour of spheres whose colour stands for nothing.
+/// Colour of spheres whose colour has no meaning.
 const PLAIN: Rgb = [0xd8, 0xb4, 0x6a];
 
-/// The share of the golden ratio: consecutive multiples, modulo 1, are far apart.
+/// The golden ratio minus 1: consecutive multiples, modulo 1, are far apart.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 impl ColorBy {
@@ -74,12 +75,12 @@ impl ColorBy {
         }
     }
 
-    /// By packing fraction, of spheres of this diameter (m) between walls at x = -reach\[0\] and
-    /// reach\[0\], and the same of y, above a floor (m); where there are none cells end near the
+    /// By packing fraction, for spheres of this diameter (m) between walls at x = -reach\[0\] and
+    /// reach\[0\], and the same for y, above a floor (m); without walls, cells end near the
     /// spheres.
     pub fn packing_fraction(reach: [Option<f64>; 2], floor: Option<f64>, diameter: f64) -> Self {
         let [x, y] = reach.map(|it| it.unwrap_or(f64::MAX));
-        let walls = Walls {
+        let walls = CellBounds {
             low: [-x, -y, floor.unwrap_or(-f64::MAX)],
             high: [x, y, f64::MAX],
             farthest: FARTHEST * diameter,
@@ -87,7 +88,7 @@ impl ColorBy {
         Self::PackingFraction { walls }
     }
 
-    /// By speed, up to the highest of these snapshots.
+    /// By speed, up to the highest in these snapshots.
     pub fn speed_of<'a>(snapshots: impl IntoIterator<Item = &'a Snapshot>) -> Self {
         let fastest = snapshots
             .into_iter()
@@ -96,7 +97,7 @@ impl ColorBy {
         Self::Speed { fastest }
     }
 
-    /// By height, over the range of these snapshots.
+    /// By height, over the range in these snapshots.
     pub fn height_of<'a>(snapshots: impl IntoIterator<Item = &'a Snapshot>) -> Self {
         let heights = snapshots
             .into_iter()
@@ -134,7 +135,7 @@ impl ColorBy {
     }
 }
 
-fn by_packing_fraction(snapshot: &Snapshot, radius: &[f64], walls: &Walls) -> Vec<Rgb> {
+fn by_packing_fraction(snapshot: &Snapshot, radius: &[f64], walls: &CellBounds) -> Vec<Rgb> {
     let centres = Centres::of(snapshot);
     let cells = voronoi_cells(&centres, walls);
     let mut colors = vec![PLAIN; snapshot.position.nrows()];

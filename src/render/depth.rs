@@ -1,4 +1,4 @@
-//! What is nearest along parallel rays: of the viewer, and of the light.
+//! The nearest objects along parallel rays from the viewer and from the light.
 
 use super::Stage;
 use super::shade::Sphere;
@@ -11,7 +11,7 @@ pub(super) enum Hit {
     Nothing,
     /// The floor.
     Floor,
-    /// The sphere of that index.
+    /// The sphere with this index.
     Sphere(u32),
 }
 
@@ -40,7 +40,7 @@ impl Rays {
         ]
     }
 
-    /// The point at depth 0 of the ray in that column and row.
+    /// The point at depth 0 of the ray in this column and row.
     pub(super) fn origin(&self, column: usize, row: usize) -> Vector {
         let [right, up, _] = self.axes;
         let across = (column as f64 + 0.5 - 0.5 * self.width as f64) / self.scale;
@@ -129,7 +129,8 @@ impl DepthMap {
 
 /// Indices of the cells, of `count`, whose centres are within `reach` of `middle`.
 fn covered(middle: f64, reach: f64, count: usize) -> std::ops::Range<usize> {
-    // Casts from floating point saturate: below the first is the first, beyond the last the last.
+    // Casts from floating point saturate: values below the first become the first, beyond the last
+    // the last.
     let first = (middle - reach - 0.5).ceil() as usize;
     let end = (middle + reach - 0.5).floor() + 1.0;
     first.min(count)..(end as usize).min(count)

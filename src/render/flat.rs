@@ -1,7 +1,7 @@
 //! Flat pictures: circles in the plane of x and z, as SVG elements in metres.
 //!
-//! What lies in that plane is drawn to scale. Of spheres in space it is the view from the side,
-//! those in front drawn over those behind. As pixels they are drawn by `resvg`, as figures are.
+//! Objects in this plane are drawn to scale. For spheres in space this is the view from the side,
+//! with front spheres drawn over those behind. `resvg` draws them as pixels, as for figures.
 
 use super::{Rgb, Stage};
 use crate::observe::Snapshot;
@@ -9,33 +9,33 @@ use crate::record::{Milestone, MilestoneKind};
 use crate::scene::{FixedSphere, FixedSpheres, Geometry, Scene, Shape};
 use std::fmt::Write;
 
-/// Colour of grains, where colours stand for nothing.
+/// Colour of grains if colours have no meaning.
 pub(crate) const GRAIN: Rgb = [0x3f, 0x7f, 0xd0];
 /// Colour of walls.
 pub(crate) const WALL: Rgb = [0xd0, 0x2b, 0x2b];
 /// Colour of the door.
 pub(crate) const DOOR: Rgb = [0x1f, 0x9d, 0x3a];
 
-/// Width of the white line around a circle, over the least radius.
+/// Width of the white line around a circle, over the smallest radius.
 const RIM: f64 = 0.06;
 /// Width of the lines of a tank, over the width of the view.
 const STROKE: f64 = 0.006;
 
-/// A rectangle of the plane (m): its corner with the least x and z, then that with the largest.
+/// A rectangle of the plane (m): its corner with the least x and z, then the opposite corner.
 pub(crate) type Window = [[f64; 2]; 2];
 
-/// What does not move: the walls, and a door while it is closed.
+/// Fixed parts: the walls, and a door while it is closed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scenery {
     fixed: FixedSpheres,
     /// When the door opened (s), if it did.
     opened: Option<f64>,
-    /// How far the walls of a tank are from its axis along x, and height of its floor (m).
+    /// Distance of a tank's walls from its axis along x, and height of its floor (m).
     tank: [Option<f64>; 2],
 }
 
 impl Scenery {
-    /// What does not move in a scene, and when its door opened.
+    /// The fixed parts of a scene, and when its door opened.
     pub fn new(scene: &Scene, milestones: &[Milestone]) -> Self {
         let opening = milestones
             .iter()
@@ -52,8 +52,8 @@ impl Scenery {
         }
     }
 
-    /// The same if flat pictures tell everything of that scene, or more than others do: discs, or
-    /// fixed spheres.
+    /// The same if flat pictures show a scene completely, or better than others: discs, or fixed
+    /// spheres.
     pub fn if_flat(scene: &Scene, milestones: &[Milestone]) -> Option<Self> {
         let is_flat = scene.spheres.shape == Shape::Disc || scene.dem.geometry.is_some();
         is_flat.then(|| Self::new(scene, milestones))
@@ -74,7 +74,7 @@ impl Scenery {
         self.opened
     }
 
-    /// The door at a time (s): nothing once it is open.
+    /// The door at a time (s): empty once it is open.
     pub fn door_at(&self, time: f64) -> &[FixedSphere] {
         // The same instant, counted in steps and in frames, may differ in its last bits.
         let is_open = self.opened.is_some_and(|opened| time > opened - 1e-9);
@@ -94,14 +94,14 @@ impl Scenery {
         sides.chain(floor).collect()
     }
 
-    /// The stage seen so far that it holds all that does not move.
+    /// The stage, extended to include all fixed parts.
     #[must_use]
     pub fn on(&self, stage: Stage) -> Stage {
         let fixed = self.fixed.walls.iter().chain(&self.fixed.door);
         stage.around_spheres(fixed.map(|it| (it.position, it.radius)))
     }
 
-    /// Everything as SVG elements, in metres, heights against the y axis of SVG.
+    /// Everything as SVG elements, in metres; heights point against the y axis of SVG.
     ///
     /// * `radius`: radius of every sphere (m)
     /// * `colors`: colour of every sphere; without them all are blue
@@ -129,7 +129,7 @@ impl Scenery {
             .map(|(sphere, (radius, centre))| (sphere, [centre[0], centre[1], centre[2]], radius))
             .filter(|(_, centre, _)| centre.iter().all(|value| value.is_finite()))
             .collect();
-        // The viewer stands where y is low.
+        // The viewer is at low y.
         spheres.sort_by(|(_, a, _), (_, b, _)| b[1].total_cmp(&a[1]));
         let circles = spheres.iter().map(|&(sphere, centre, radius)| {
             pen.circle(centre, radius, colors.map(|colors| colors[sphere]))
@@ -149,7 +149,7 @@ pub(crate) fn window(stage: &Stage) -> Window {
     stage.seen.map(|[x, _, z]| [x, z])
 }
 
-/// Digits after the point with which no eye sees that lengths are rounded in a view of that size.
+/// Digits after the point that make rounding invisible in a view of this size.
 pub(crate) fn digits(size: f64) -> usize {
     const FINENESS: f64 = 2e4;
     if size.is_finite() && size > 0.0 {
@@ -174,7 +174,7 @@ fn group(name: &str, color: Rgb, more: &str, circles: impl Iterator<Item = Strin
     format!("<g id=\"{name}\" fill=\"{color}\"{more}>\n{circles}</g>\n")
 }
 
-/// Writes elements with as many digits as a picture needs.
+/// Writes elements with the digits that a picture needs.
 struct Pen {
     digits: usize,
     /// Width of the lines of a tank (m).
@@ -190,7 +190,7 @@ impl Pen {
         }
     }
 
-    /// The least length that is not written as nothing (m).
+    /// The least length that is not written as zero (m).
     fn least(&self) -> f64 {
         libm::exp10(-(self.digits as f64))
     }

@@ -32,8 +32,8 @@ impl Image {
         [0, 1, 2, 3].map(|channel| self.rgba[at + channel])
     }
 
-    /// Puts another picture into this one, its top left pixel in column `left` and row `top`; what
-    /// reaches beyond the border is cut off.
+    /// Puts another picture into this one, with its top left pixel in column `left` and row `top`;
+    /// parts beyond the border are cut off.
     pub fn paste(&mut self, other: &Self, left: usize, top: usize) {
         let columns = other.width.min(self.width.saturating_sub(left));
         for row in 0..other.height.min(self.height.saturating_sub(top)) {
@@ -59,7 +59,7 @@ impl Image {
     /// The picture as a PNG file, with texts (keyword, text) in its metadata.
     ///
     /// # Errors
-    /// What the encoder says, of a keyword that PNG does not allow, say.
+    /// Errors of the encoder, for example for a keyword that PNG does not allow.
     pub fn to_png(&self, texts: &[(&str, String)]) -> Result<Vec<u8>, png::EncodingError> {
         self.encode(texts, &self.rgba, |encoder| {
             encoder.set_color(png::ColorType::Rgba);
@@ -69,7 +69,7 @@ impl Image {
     /// The same in at most 256 colours, a smaller file.
     ///
     /// # Errors
-    /// Those of [`to_png`](Self::to_png).
+    /// As for [`to_png`](Self::to_png).
     pub fn to_png_of_palette(
         &self,
         texts: &[(&str, String)],
@@ -78,7 +78,7 @@ impl Image {
         self.encode(texts, &palette.indices(self), |encoder| {
             encoder.set_color(png::ColorType::Indexed);
             encoder.set_palette(palette.colors.concat());
-            // Indices of neighbours have nothing to do with each other.
+            // Indices of neighbouring pixels are unrelated.
             encoder.set_filter(png::Filter::NoFilter);
         })
     }

@@ -1,9 +1,9 @@
 //! Pictures of spheres in their tank: a small software renderer; and flat ones of discs.
 //!
-//! An orthographic [`Camera`] looks at a [`Stage`]; [`picture`] draws every sphere as what it is,
-//! so that spheres that overlap meet in the right circle. Light comes from the upper left of the
-//! viewer, spheres throw shadows on each other and on the floor. The same input gives the same
-//! pixels on every machine.
+//! An orthographic [`Camera`] looks at a [`Stage`]; [`picture`] draws every sphere exactly, so that
+//! overlapping spheres meet in the right circle. Light comes from the upper left of the viewer;
+//! spheres cast shadows on each other and on the floor. The same input gives the same pixels on
+//! every machine.
 
 mod animation;
 mod camera;
@@ -33,11 +33,10 @@ use crate::observe::Snapshot;
 /// A picture of `width` x `height` pixels of all spheres of a snapshot.
 ///
 /// The view of the camera fills the picture as far as its proportions allow, centred on white.
-/// Spheres outside the view are not drawn; those above or below what the stage shows throw no
-/// shadows either.
+/// Spheres outside the view are not drawn; those above or below the stage cast no shadows either.
 ///
 /// * `radius`: radius of every sphere (m)
-/// * `stage`: the walls; keep it, and the camera made of it, over the frames of an animation
+/// * `stage`: the walls; keep it, and the camera made from it, for all frames of an animation
 /// * `color`: colour of every sphere, see [`ColorBy::colors`]
 ///
 /// ```
@@ -82,7 +81,7 @@ pub fn picture(
     shade::render(&spheres, stage, camera, width, height)
 }
 
-/// The letters of a text that the font of pictures lacks: it shows boxes for them.
+/// The letters of a text that are missing in the font of pictures, which shows boxes for them.
 pub fn lacking_letters(text: &str) -> Vec<char> {
     crate::fonts::lacking(text)
 }

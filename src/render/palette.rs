@@ -2,12 +2,12 @@
 
 use super::{Image, Rgb};
 
-/// Bits of a channel that tell colours apart.
+/// Bits per channel that distinguish colours.
 const BITS: u32 = 5;
-/// Number of colours that are told apart.
+/// Number of distinguished colours.
 const CELLS: usize = 1 << (3 * BITS);
 
-/// The colours of pictures, and which of them stands for which colour.
+/// A palette for pictures, and the assignment of colours to it.
 pub(super) struct Palette {
     pub(super) colors: Vec<Rgb>,
     /// Index of the colour of each cell.
@@ -35,7 +35,7 @@ impl Palette {
         let occupied: Vec<usize> = (0..CELLS).filter(|&i| cells[i].pixels > 0).collect();
         let mut boxes = vec![occupied];
         while boxes.len() < 256 {
-            // The box whose pixels suffer most; the first of equals.
+            // The box with the largest error; among equals the first.
             let worth = |cells_of: &Vec<usize>| {
                 let pixels: u64 = cells_of.iter().map(|&i| cells[i].pixels).sum();
                 u64::from(widest(cells_of).1) * pixels

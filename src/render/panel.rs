@@ -1,5 +1,5 @@
-//! A state at a glance: a caption, and below it the view from the side and that from above, or one
-//! flat view.
+//! A panel of a state: a caption, and below it the views from the side and from above, or one flat
+//! view.
 
 use super::vector::{self, Anchor};
 use super::{Camera, Image, Rgb, Scenery, Stage, flat, picture};
@@ -14,7 +14,7 @@ const GAP: f64 = 0.03;
 
 /// Views of cameras, at one scale.
 ///
-/// Units of `radius` and meaning of `color` are those of [`picture`].
+/// Units of `radius` and meaning of `color` are as in [`picture`].
 pub(super) fn views(
     snapshot: &Snapshot,
     radius: &[f64],
@@ -29,13 +29,13 @@ pub(super) fn views(
     });
     let mut views: Vec<Image> = views.collect();
     if stage.radius.is_none() {
-        // No wall shows where the picture ends.
+        // No wall marks where the picture ends.
         views.iter_mut().for_each(Image::outline);
     }
     views
 }
 
-/// The flat view; without colours, spheres have that of grains.
+/// The flat view; without colours, spheres have the colour of grains.
 pub(super) fn flat_view(
     snapshot: &Snapshot,
     radius: &[f64],
@@ -70,7 +70,7 @@ pub(super) fn panel(views: &[Image], width: usize, caption: &[String]) -> Image 
     panel
 }
 
-/// The lines of a caption; one that is too long is in smaller letters.
+/// The lines of a caption; long lines have smaller letters.
 fn words(caption: &[String], width: usize, line: usize) -> Image {
     let middle = 0.5 * width as f64;
     let [one, several] = LETTERS;
@@ -88,12 +88,12 @@ fn words(caption: &[String], width: usize, line: usize) -> Image {
     vector::drawing(&elements, width, caption.len() * line)
 }
 
-/// A share of a width, in whole pixels.
+/// A fraction of a width, in whole pixels.
 fn share(share: f64, width: usize) -> usize {
     (share * width as f64).round().max(1.0) as usize
 }
 
-/// Height of a panel of that width (pixels), with these views and that many lines of a caption.
+/// Height of a panel of this width (pixels), with these views and this number of caption lines.
 pub(super) fn height(cameras: &[Camera], lines: usize, width: usize) -> usize {
     let gap = share(GAP, width);
     let views = cameras
@@ -102,17 +102,17 @@ pub(super) fn height(cameras: &[Camera], lines: usize, width: usize) -> usize {
     lines * share(CAPTION, width) + views.sum::<usize>()
 }
 
-/// Room between panels of that width (pixels).
+/// Space between panels of this width (pixels).
 fn gap(width: usize) -> usize {
     (GAP * width as f64).round() as usize
 }
 
-/// Width of a strip of `count` panels of that width (pixels).
+/// Width of a strip of `count` panels of this width (pixels).
 pub(super) fn strip_width(count: usize, width: usize) -> usize {
     count * (width + gap(width))
 }
 
-/// Panels of equal size beside each other.
+/// Panels of equal size side by side.
 pub fn strip(panels: &[Image]) -> Image {
     let gap = |panel: &Image| gap(panel.width);
     let width = panels.iter().map(|panel| panel.width + gap(panel)).sum();

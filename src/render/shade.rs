@@ -1,4 +1,4 @@
-//! Light and shadow.
+//! Light and shadows.
 
 use super::depth::{DepthMap, Hit, Rays};
 use super::{Camera, Image, Rgb, Stage};
@@ -26,14 +26,14 @@ impl Sphere {
 
 /// Rays per pixel, along each side: smooth edges.
 const SAMPLES: usize = 3;
-/// Direction to the light along right, up and to the viewer; of length 1.
+/// Unit vector to the light, with components right, up and to the viewer.
 const LIGHT: [f64; 3] = [-0.36, 0.48, 0.8];
-/// Light from everywhere, and from the lamp.
+/// Ambient light, and light from the lamp.
 const AMBIENT: f64 = 0.42;
 const LAMP: f64 = 0.66;
 /// Share of the lamp's light that is mirrored.
 const GLOSS: f64 = 0.18;
-/// How much of their colour the farthest things lose to the paper.
+/// How much the farthest objects fade into the background.
 const HAZE: f64 = 0.28;
 const FLOOR: Rgb = [232, 234, 238];
 const GLASS: Rgb = [246, 247, 249];
@@ -86,7 +86,7 @@ pub(super) fn render(
     average(&samples, width, height)
 }
 
-/// Everything a ray needs to find its colour.
+/// Data from which a ray finds its colour.
 struct Shader<'a> {
     spheres: &'a [Sphere],
     stage: &'a Stage,
@@ -98,9 +98,9 @@ struct Shader<'a> {
     half: Vector,
     /// Depth of the farthest and of the nearest sphere (m).
     depths: [f64; 2],
-    /// How far neighbours darken a place (m).
+    /// Reach within which neighbours darken a place (m).
     reach: f64,
-    /// Where each ray of a pixel looks for neighbours, over that reach.
+    /// Places where each ray of a pixel looks for neighbours, over this reach.
     places: Vec<Vec<[f64; 2]>>,
 }
 
@@ -119,7 +119,7 @@ impl Shader<'_> {
                 (sphere.color, normal, GLOSS)
             }
         };
-        // Shadows on the floor must not be taken for spheres.
+        // Shadows on the floor must not look like spheres.
         let darkness = if hit == Hit::Floor { 0.45 } else { 1.0 };
         let lit = 1.0 - darkness * self.shadow(point, hit);
         let ambient = AMBIENT * (1.0 - self.occlusion(column, row, (depth, hit)));
@@ -150,7 +150,7 @@ impl Shader<'_> {
         let mut hidden = 0;
         for down in [-1.0, 0.0, 1.0] {
             for across in [-1.0, 0.0, 1.0] {
-                // A sphere never throws a shadow on its own lit side.
+                // A sphere never casts a shadow on its own lit side.
                 hidden += match self.shadows.near(column + across, row + down) {
                     Some((above, blocker)) if blocker != hit && above > depth => 1,
                     _ => 0,
@@ -160,7 +160,7 @@ impl Shader<'_> {
         f64::from(hidden) / 9.0
     }
 
-    /// Share of the light from everywhere that nearer neighbours in the view hide.
+    /// Share of the ambient light that nearer neighbours in the view hide.
     fn occlusion(&self, column: usize, row: usize, (depth, hit): (f64, Hit)) -> f64 {
         let reach = self.reach * self.view.rays.scale;
         // The rays of a pixel look at different places, so that their mean is smooth.
@@ -175,14 +175,14 @@ impl Shader<'_> {
                     return None;
                 }
                 let rise = (near - depth) / self.reach;
-                // What is far in front of a place does not darken it.
+                // Objects far in front of a place do not darken it.
                 Some(rise.clamp(0.0, 1.0) * (2.0 - 0.25 * rise).clamp(0.0, 1.0))
             })
             .sum();
         (1.3 * hidden / places.len() as f64).min(0.85)
     }
 
-    /// What is behind everything: the inside of the tank, or paper.
+    /// The background: the inside of the tank, or white.
     fn background(&self, origin: Vector) -> Rgb {
         const PAPER: Rgb = [255, 255, 255];
         let Some(radius) = self.stage.radius else {
@@ -205,8 +205,8 @@ impl Shader<'_> {
         if inside { GLASS } else { PAPER }
     }
 
-    /// Whether the ray through that point leaves the box between plane sides, on its way from the
-    /// viewer, through one of them, or would through one of those below if it looks straight down.
+    /// Whether the ray from the viewer through this point leaves the box through one of the plane
+    /// sides. A ray straight down counts if it would meet one of the lower sides.
     fn is_before_side(&self, origin: Vector) -> bool {
         let near = self.view.rays.axes[2];
         let [low, high] = self.stage.seen;
@@ -228,7 +228,7 @@ impl Shader<'_> {
     }
 }
 
-/// Places in the unit disc, in twelve directions and at twelve distances, turned from ray to ray.
+/// Places in the unit disc, in twelve directions and at twelve distances, rotated from ray to ray.
 fn places_around(ray: usize) -> Vec<[f64; 2]> {
     const DIRECTIONS: usize = 12;
     let rays = (SAMPLES * SAMPLES) as f64;
@@ -244,7 +244,7 @@ fn places_around(ray: usize) -> Vec<[f64; 2]> {
         .collect()
 }
 
-/// What the light meets first.
+/// The first objects that the light meets.
 fn shadow_map(spheres: &[Sphere], light: Vector, up: Vector, scale: f64) -> DepthMap {
     let right = unit(up.cross(light));
     let axes = [right, light.cross(right), light];
@@ -317,7 +317,7 @@ fn outlines(stage: &Stage, camera: &Camera) -> Vec<Vec<Vector>> {
     lines
 }
 
-/// Draws a line where nothing is before it.
+/// Draws the visible parts of a line.
 fn draw_line(line: &[Vector], view: &DepthMap, samples: &mut [[f32; 3]]) {
     let half = 0.5 * STROKE * SAMPLES as f64;
     let color = linear(OUTLINE);
@@ -372,7 +372,7 @@ fn average(samples: &[[f32; 3]], width: usize, height: usize) -> Image {
     image
 }
 
-/// The light of a colour. A square stands for the screen's exponent of 2.2.
+/// The light of a colour. A square approximates the screen's exponent of 2.2.
 fn linear(color: Rgb) -> [f32; 3] {
     color.map(|channel| {
         let value = f32::from(channel) / 255.0;

@@ -1,4 +1,4 @@
-//! Panels with what one needs to read them: title, legend of the colours, a length to compare with.
+//! Panels with title, legend of the colours, and a scale bar.
 
 use super::vector::{self, Anchor};
 use super::{Camera, ColorBy, Image, Scenery, Stage, panel, strip};
@@ -11,40 +11,40 @@ use crate::scene::Units;
 const LETTERS: f64 = 0.048;
 /// Height of a line over the size of its letters.
 const LINE: f64 = 1.6;
-/// Room between words and panels, in lines.
+/// Space between words and panels, in lines.
 const GAP: f64 = 0.4;
-/// Length of the colour bar, over the size of the letters.
+/// Length of the colour bar over the size of the letters.
 const BAR: f64 = 5.0;
-/// From this number of panels on, legend and length stand beside each other.
+/// From this number of panels on, legend and scale bar are side by side.
 const WIDE: usize = 2;
 
 /// Which sides of the spheres are shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Sides {
-    /// The view from the side, and that from above.
+    /// The views from the side and from above.
     #[default]
     Both,
     /// The view from the side.
     Side,
-    /// The view from the side of the half behind the axis: a cut through the middle.
+    /// The half behind the axis from the side: a cut through the middle.
     Cut,
 }
 
-/// What the pictures of a run have in common.
+/// The common part of a run's pictures.
 #[derive(Clone, Debug)]
 pub struct Sheet {
     /// Lines above the panels.
     pub title: Vec<String>,
     /// Radius of every sphere (m).
     pub radius: Vec<f64>,
-    /// The walls, and what is seen of them.
+    /// The walls, and the visible part of the scene.
     pub stage: Stage,
-    /// What the colours stand for.
+    /// The meaning of colours.
     pub color: ColorBy,
-    /// Which sides are shown of a view that is not flat.
+    /// The sides shown if the view is not flat.
     pub sides: Sides,
-    /// What a flat view shows besides the spheres. Without it, panels show the view from the side
-    /// and that from above.
+    /// Fixed parts in a flat view. Without them, panels show the views from the side and from
+    /// above.
     pub flat: Option<Scenery>,
     /// Units of the scene.
     pub units: Units,
@@ -81,15 +81,15 @@ impl Sheet {
         cameras
     }
 
-    /// Height of a picture of `count` panels of that width (pixels), with so many lines of a
-    /// caption.
+    /// Height of a picture of `count` panels of this width (pixels), with this number of caption
+    /// lines.
     pub fn height(&self, count: usize, lines: usize, width: usize) -> usize {
         let words = Words::new(self, count, width);
         let panel = panel::height(&self.cameras(), lines, width);
         words.head + panel + words.foot
     }
 
-    /// Panels of equal size beside each other, with title, legend and length.
+    /// Panels of equal size side by side, with title, legend and scale bar.
     ///
     /// # Panics
     /// Without any panel.
@@ -116,7 +116,7 @@ fn without_front(snapshot: &Snapshot) -> Snapshot {
     behind
 }
 
-/// The words of a sheet, and the room for them (pixels).
+/// The words of a sheet, and the space for them (pixels).
 struct Words {
     width: usize,
     /// Size of the letters.
@@ -124,7 +124,7 @@ struct Words {
     title: Vec<String>,
     head: usize,
     foot: usize,
-    /// Whether the legend and the length stand beside each other.
+    /// Whether the legend and the scale bar are side by side.
     is_wide: bool,
 }
 
@@ -159,7 +159,7 @@ impl Words {
         (line as f64 + 0.75) * LINE * self.size
     }
 
-    /// Room between the panels and the words below.
+    /// Space between the panels and the words below.
     fn gap(&self) -> f64 {
         GAP * LINE * self.size
     }
@@ -182,14 +182,14 @@ impl Words {
         vector::drawing(&elements, self.width, self.foot)
     }
 
-    /// Which colour stands for what, as elements.
+    /// The legend of the colours, as elements.
     fn legend(&self, color: &ColorBy, units: Units) -> String {
         let (size, base) = (self.size, self.base(0) + self.gap());
         let words = |words: &str| vector::text(words, (size, base), size, Anchor::Start);
         let labelled = |word: &str, unit| format!("{word} ({})", units.shown(unit));
         let (label, low, high) = match *color {
             ColorBy::Nothing => return String::new(),
-            ColorBy::Index => return words("colours tell spheres apart"),
+            ColorBy::Index => return words("colours distinguish spheres"),
             ColorBy::Speed { fastest } => (labelled("speed", "m/s"), 0.0, fastest),
             ColorBy::Height { low, high } => (labelled("height", "m"), low, high),
             ColorBy::Radius { low, high } if units == Units::OfSpheres => {
@@ -225,7 +225,7 @@ impl Words {
         elements + &color_bar((bar, base - 0.75 * size), (BAR * size, 0.8 * size))
     }
 
-    /// A length to compare with, as elements.
+    /// The scale bar, as elements.
     fn length(&self, sheet: &Sheet, panel: usize, row: usize) -> String {
         let camera = Camera::side(&sheet.stage);
         let length = round_down(0.5 * camera.view()[0]);
@@ -260,7 +260,7 @@ fn color_bar((left, top): (f64, f64), (width, height): (f64, f64)) -> String {
         .map(|index| {
             let [red, green, blue] = ColorMap::Sequential.at((index as f64 + 0.5) / STEPS as f64);
             let x = left + index as f64 * step;
-            // Neighbours overlap, so that no white is between them.
+            // Neighbours overlap, so that no white shows between them.
             format!(
                 "<rect x=\"{x}\" y=\"{top}\" width=\"{}\" height=\"{height}\" \
                  fill=\"#{red:02x}{green:02x}{blue:02x}\"/>",
@@ -290,15 +290,15 @@ fn number(value: f64) -> String {
     rounded(value, 3)
 }
 
-/// Two different numbers with as many digits as tell them apart, three at least; of close ones the
-/// second as what it exceeds the first by.
+/// Two different numbers with enough digits to differ, at least three; if they are close, the
+/// second is written as its excess over the first.
 fn pair(low: f64, high: f64) -> [String; 2] {
     let mut pairs = (3..=5).map(|digits| [low, high].map(|value| rounded(value, digits)));
     let told = pairs.find(|[low, high]| low != high);
     told.unwrap_or_else(|| [number(low), format!("+{}", number(high - low))])
 }
 
-/// A number to so many digits.
+/// A number to `digits` digits.
 fn rounded(value: f64, digits: usize) -> String {
     let rounded: f64 = format!("{value:.*e}", digits - 1).parse().unwrap_or(value);
     match rounded.abs() {
@@ -350,7 +350,7 @@ mod tests {
         assert_eq!(lines, ["vortex_tank_theoreti", "cal_linear_drag"]);
     }
 
-    /// Symptom: a scale of colours from "3" to "3" mm. Cause: three digits, whatever the ends are.
+    /// Symptom: a scale of colours from "3" to "3" mm. Cause: always three digits.
     #[test]
     fn ends_of_a_scale_differ() {
         assert_eq!(pair(3.0001, 3.0003), ["3.0001", "3.0003"]);

@@ -1,19 +1,19 @@
-//! What the spheres move in, and how much of it is seen.
+//! The walls around the spheres, and the visible part of the scene.
 
 use crate::observe::Snapshot;
 use crate::particles::vector::Vector;
 use crate::scene::Scene;
 
-/// The walls, and the box that is seen.
+/// The walls, and the visible box.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stage {
     /// Radius of the cylinder about the z axis (m), if there is one.
     pub radius: Option<f64>,
-    /// How far plane sides are from the axis along x and along y (m), where there are any.
+    /// Distance of plane sides from the axis along x and along y (m), if there are any.
     pub sides: [Option<f64>; 2],
     /// Height of the floor (m), if there is one.
     pub floor: Option<f64>,
-    /// Corners of the box that is seen (m): least x, y and z, then the largest.
+    /// Corners of the visible box (m): least x, y and z, then the largest.
     pub seen: [[f64; 3]; 2],
 }
 
@@ -45,8 +45,8 @@ impl Stage {
         }
     }
 
-    /// The stage with plane sides that far from the axis along x and along y (m), where there are
-    /// any.
+    /// The stage with plane sides at these distances from the axis along x and along y (m), if
+    /// there are any.
     #[must_use]
     pub fn with_sides(mut self, sides: [Option<f64>; 2]) -> Self {
         self.sides = sides;
@@ -58,13 +58,12 @@ impl Stage {
         self
     }
 
-    /// Whether plane sides are there.
+    /// Whether there are plane sides.
     pub(super) fn has_sides(&self) -> bool {
         self.sides.iter().any(Option::is_some)
     }
 
-    /// Least and largest x, and the same of y, of what plane sides bound (m): where there are none,
-    /// of what is seen.
+    /// Least and largest x and y between plane sides (m); without sides, of the visible box.
     pub(super) fn between_sides(&self) -> [[f64; 2]; 2] {
         [0, 1].map(|axis| {
             let seen = [self.seen[0][axis], self.seen[1][axis]];
@@ -80,7 +79,7 @@ impl Stage {
         self.radius.is_none_or(round) && sides.into_iter().all(along)
     }
 
-    /// The stage seen so far up and wide that it holds all spheres of these snapshots.
+    /// The stage, extended to include all spheres of these snapshots.
     #[must_use]
     pub fn around<'a>(
         mut self,
@@ -97,7 +96,7 @@ impl Stage {
         self
     }
 
-    /// The stage seen so far up and wide that it holds spheres with these centres and radii (m).
+    /// The stage, extended to include spheres with these centres and radii (m).
     #[must_use]
     pub(super) fn around_spheres(
         mut self,
@@ -126,15 +125,15 @@ impl Stage {
             && self.seen[0] == self.seen[1]
     }
 
-    /// The stage seen up to the height `top` (m), whatever flies above.
+    /// The stage up to the height `top` (m), even if spheres are above it.
     #[must_use]
     pub fn up_to(mut self, top: f64) -> Self {
         self.seen[1][2] = top.max(self.seen[0][2]);
         self
     }
 
-    /// The stage no taller than `ratio` times its width: within a tank its upper part is not seen,
-    /// without one more is seen beside the spheres.
+    /// The stage no taller than `ratio` times its width: in a tank its upper part is cut off;
+    /// without a tank the view is widened.
     #[must_use]
     pub fn no_taller(mut self, ratio: f64) -> Self {
         let [low, high] = self.seen;
@@ -152,8 +151,8 @@ impl Stage {
         self
     }
 
-    /// Points that enclose all that is seen, in coordinates along x and along `up`, where `up` has
-    /// no component along x.
+    /// Points that enclose everything visible, in coordinates along x and along `up`, which has no
+    /// component along x.
     pub(super) fn outline(&self, up: Vector) -> Vec<[f64; 2]> {
         let [low, high] = self.seen;
         let mut points = Vec::new();
@@ -167,7 +166,7 @@ impl Stage {
         points
     }
 
-    /// Point by point around the rim of the walls at height `z`; none without any.
+    /// Points around the rim of the walls at height `z`; empty without walls.
     pub(super) fn rim(&self, z: f64) -> Vec<Vector> {
         const CORNERS: usize = 180;
         let Some(radius) = self.radius else {
@@ -184,7 +183,7 @@ impl Stage {
             .collect()
     }
 
-    /// The corners of the box that plane sides make, from above: around, back to the first.
+    /// The corners of the box between plane sides, seen from above, in order, back to the first.
     pub(super) fn corners(&self) -> [[f64; 2]; 5] {
         let [[left, right], [front, back]] = self.between_sides();
         [

@@ -59,7 +59,7 @@ fn a_sphere_is_where_it_is_and_as_large_as_it_is() {
 
 #[test]
 fn the_nearer_sphere_hides_the_other() {
-    // The first is nearer to the camera at the side, the second to that above.
+    // The first is nearer to the camera at the side, the second to the camera above.
     let all = snapshot(array![[0.0, -0.03, -0.17], [0.0, 0.0, -0.15]]);
     let (radius, color) = ([0.01, 0.01], [RED, GREEN]);
     let count = |camera: &Camera, belongs: fn([u8; 4]) -> bool| {
@@ -97,8 +97,8 @@ fn spheres_that_overlap_meet_in_the_middle() {
 
 #[test]
 fn a_sphere_in_the_light_throws_a_shadow() {
-    // The lamp stands to the upper left of the viewer: seen from above, the shadow falls to the
-    // lower right.
+    // The lamp is at the upper left of the viewer: seen from above, the shadow falls to the lower
+    // right.
     let low = array![[0.0, 0.0, -0.19]];
     let lit = array![[0.0, 0.0, -0.19], [-0.018, 0.024, -0.15]];
     let camera = Camera::top(&TANK);

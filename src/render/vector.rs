@@ -5,8 +5,8 @@ use crate::fonts;
 use crate::markup::escape;
 use resvg::{tiny_skia, usvg};
 
-/// SVG elements, with letters that are part of the program, in a white picture of that size. What
-/// is too large to be drawn stays white.
+/// SVG elements, with letters that are part of the program, in a white picture of this size. A
+/// picture that is too large to be drawn stays white.
 pub(super) fn drawing(elements: &str, width: usize, height: usize) -> Image {
     let mut image = Image::white(width, height);
     if let Some(pixels) = draw(elements, width, height) {
@@ -34,14 +34,14 @@ fn draw(elements: &str, width: usize, height: usize) -> Option<tiny_skia::Pixmap
     Some(pixels)
 }
 
-/// Where a text stands on its place.
+/// Alignment of a text at its place.
 #[derive(Clone, Copy)]
 pub(super) enum Anchor {
     Start,
     Middle,
 }
 
-/// A line of black text of that size, its base line at `y`.
+/// A line of black text of this size, with its base line at `y`.
 pub(super) fn text(text: &str, (x, y): (f64, f64), size: f64, anchor: Anchor) -> String {
     let anchor = match anchor {
         Anchor::Start => "start",
@@ -55,7 +55,7 @@ pub(super) fn text(text: &str, (x, y): (f64, f64), size: f64, anchor: Anchor) ->
     )
 }
 
-/// Width that a text of that size needs, at most if it is not all of wide letters.
+/// Width of a text of this size: an upper bound unless it has only wide letters.
 pub(super) fn width(text: &str, size: f64) -> f64 {
     const LETTER: f64 = 0.62;
     LETTER * size * text.chars().count() as f64

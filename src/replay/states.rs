@@ -1,4 +1,4 @@
-//! A run as far as the places of its spheres tell it, as other programs write them.
+//! A run from the places of its spheres, as other programs write them.
 
 use crate::observe::{FrameView, Observer};
 use crate::record::{Outcome, Program, RunRecord};
@@ -8,16 +8,16 @@ use ndarray::Array2;
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::PI;
 
-/// Farthest that a sphere may be from the origin along an axis, in diameters: what is measured of
-/// states divides the room that they take.
+/// Largest distance of a sphere from the origin along an axis, in diameters: measurements divide
+/// the space of all spheres into cells.
 const FARTHEST: f64 = 1e4;
 
-/// A state that another program wrote: when, and where its spheres are.
+/// A state written by another program: its time, and the places of its spheres.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WrittenState {
     /// When it is.
-    pub moment: Moment,
-    /// Whether the file has numbers of the spheres; else they count from 0 in their order.
+    pub moment: StateTime,
+    /// Whether the file has numbers of the spheres; otherwise they count from 0 in order.
     pub are_numbered: bool,
     /// Number of each sphere, and its centre.
     pub spheres: Vec<(u64, [f64; 3])>,
@@ -25,10 +25,10 @@ pub struct WrittenState {
 
 /// When a state is.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Moment {
+pub enum StateTime {
     /// At a time (s).
     Time(f64),
-    /// After so many steps, of a length that the file does not say.
+    /// After a number of steps, whose length the file does not give.
     Step(u64),
 }
 
@@ -38,16 +38,16 @@ pub enum StatesError {
     /// There is one state, or none.
     #[error("it has one state; a run needs two or more")]
     Few,
-    /// Times do not grow.
-    #[error("state {0} is not later than the one before; put the states in order of time")]
+    /// Times do not increase.
+    #[error("state {0} is not later than the state before; put the states in order of time")]
     Order(usize),
     /// No state has a sphere.
     #[error("no state has a sphere")]
     Empty,
-    /// A sphere is so far off that nothing can be measured around it.
+    /// A sphere is too far away to be measured.
     #[error(
         "state {state}: sphere {number} is more than {FARTHEST} diameters from the origin; leave \
-         it out, or give a scene of the units of the file"
+            it out, or give a scene in the units of the file"
     )]
     Far {
         /// The state, from 1.
@@ -57,7 +57,7 @@ pub enum StatesError {
     },
     /// A sphere is outside the walls of the scene.
     #[error(
-        "state {state}: sphere {number} is beside the walls of the scene; give the scene of the \
+        "state {state}: sphere {number} is outside the walls of the scene; give the scene of the \
          file, in its units"
     )]
     Outside {
@@ -66,26 +66,26 @@ pub enum StatesError {
         /// The number of the sphere.
         number: u64,
     },
-    /// The spheres have no room where they are.
+    /// The spheres are larger than the space that they occupy.
     #[error(
-        "state {0}: its spheres are larger, by the radius of the scene, than the room that they \
-         take; give a scene of the units of the file"
+        "state {0}: with the scene's radius, its spheres are larger than the space that they \
+            occupy; give a scene in the units of the file"
     )]
     Crowded(usize),
-    /// Nothing says which sphere of a state is which of the one before.
+    /// Spheres cannot be matched with the state before.
     #[error(
-        "state {0} has another number of spheres than the one before, or only one of them has \
-         numbers of spheres, so that nothing says which are the same; write an `id` of each sphere"
+        "state {0} and the state before differ in their number of spheres, or only one of them \
+            numbers its spheres, so that spheres cannot be matched; write an `id` for each sphere"
     )]
     Unnumbered(usize),
-    /// Moments are counted in steps of which nothing tells the length.
+    /// Times are counted in steps of unknown length.
     #[error(
-        "it counts steps, and the scene is of spots, which has none of that length; write times \
-         (`dump_modify ID time yes` in LAMMPS), or give the scene of the file with `--scene`"
+        "it counts steps, but a scene of spots has no time step; write times (`dump_modify ID time \
+         yes` in LAMMPS), or give the scene of the file with `--scene`"
     )]
     Steps,
-    /// Two spheres of a state have one number.
-    #[error("state {state} has two spheres of the number {number}")]
+    /// Two spheres of a state have the same number.
+    #[error("state {state} has two spheres with the number {number}")]
     Twice {
         /// The state, from 1.
         state: usize,
@@ -94,15 +94,15 @@ pub enum StatesError {
     },
 }
 
-/// The record of a run of which another program wrote these states. The scene says what the file
-/// does not: the tank, the radius of the spheres, and the time step, where moments are counted in
-/// steps. A door of the scene opens at the time that the scene says; where it says none, or the
-/// first of the counted steps is not 0, it is open, and steps are counted from that one. Spheres
-/// that are not in a state have left, or come in later. Observables are those of positions;
-/// velocities are displacements since the state before.
+/// The record of a run whose states another program wrote. The scene adds what the file lacks: the
+/// tank, the radius of the spheres, and the time step if times are counted in steps. A door of the
+/// scene opens at the time that the scene gives. Without such a time, or if the first counted step
+/// is not 0, the door is open and steps are counted from the first. Spheres that are not in a state
+/// have left, or come in later. Observables follow from positions; velocities are displacements
+/// since the previous state.
 ///
 /// # Errors
-/// If the states are no run.
+/// If the states cannot be a run.
 pub fn replay_states(states: &[WrittenState], scene: &Scene) -> Result<RunRecord, StatesError> {
     let times = times(states, scene)?;
     check_numbers(states)?;
@@ -114,7 +114,7 @@ pub fn replay_states(states: &[WrittenState], scene: &Scene) -> Result<RunRecord
     check_places(states, scene)?;
     let mut scene = scene.clone();
     scene.spheres.count = count;
-    let has_clock = matches!(states[0].moment, Moment::Time(_) | Moment::Step(0));
+    let has_clock = matches!(states[0].moment, StateTime::Time(_) | StateTime::Step(0));
     scene.dem.door = (scene.dem.door).filter(|door| has_clock && door.opens.is_some());
     scene.time.duration = times.last().copied().unwrap_or_default();
     let radius = vec![scene.spheres.radius.mean(); count];
@@ -159,7 +159,7 @@ pub fn replay_states(states: &[WrittenState], scene: &Scene) -> Result<RunRecord
     })
 }
 
-/// When the door of a scene opens, if that is within these times (s).
+/// When the door of a scene opens, if within these times (s).
 fn opening(scene: &Scene, times: &[f64]) -> Vec<Milestone> {
     let opens = scene.dem.door.as_ref().and_then(|door| door.opens);
     let within = opens.filter(|opens| times.last().is_some_and(|last| opens <= last));
@@ -170,8 +170,8 @@ fn opening(scene: &Scene, times: &[f64]) -> Vec<Milestone> {
     milestone.into_iter().collect()
 }
 
-/// Refuses states whose spheres cannot be told from those of the state before. An empty one is
-/// behind all that have left.
+/// Refuses states whose spheres cannot be matched with the state before. An empty state means that
+/// all have left.
 fn check_numbers(states: &[WrittenState]) -> Result<(), StatesError> {
     let filled = (1..).zip(states).filter(|(_, it)| !it.spheres.is_empty());
     let filled: Vec<(usize, &WrittenState)> = filled.collect();
@@ -186,7 +186,8 @@ fn check_numbers(states: &[WrittenState]) -> Result<(), StatesError> {
     }
 }
 
-/// Refuses spheres far from the origin, beside the walls of the scene, or too many for their room.
+/// Refuses spheres far from the origin, outside the walls of the scene, or too many for their
+/// space.
 fn check_places(states: &[WrittenState], scene: &Scene) -> Result<(), StatesError> {
     let diameter = 2.0 * scene.mean_radius();
     let far = |place: &[f64; 3]| !place.iter().all(|it| it.abs() < FARTHEST * diameter);
@@ -219,7 +220,7 @@ fn is_beside(scene: &Scene, [x, y, z]: &[f64; 3], diameter: f64) -> bool {
     beside && tank.floor.is_none_or(|floor| *z > floor)
 }
 
-/// Whether the spheres of a state are together larger than the box about them.
+/// Whether the total volume of a state's spheres exceeds the box about them.
 fn is_crowded(state: &WrittenState, diameter: f64) -> bool {
     let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
     for (_, place) in &state.spheres {
@@ -279,7 +280,7 @@ fn observe(
 
 fn times(states: &[WrittenState], scene: &Scene) -> Result<Vec<f64>, StatesError> {
     let dt = scene.time.dt;
-    let counts = |it: &WrittenState| matches!(it.moment, Moment::Step(_));
+    let counts = |it: &WrittenState| matches!(it.moment, StateTime::Step(_));
     if scene.spot.is_some() && states.iter().any(counts) {
         return Err(StatesError::Steps);
     }
@@ -288,9 +289,9 @@ fn times(states: &[WrittenState], scene: &Scene) -> Result<Vec<f64>, StatesError
         _ => return Err(StatesError::Few),
     };
     let time = |state: &WrittenState| match (state.moment, first) {
-        (Moment::Time(time), _) => time,
-        (Moment::Step(step), Moment::Step(first)) => step.saturating_sub(first) as f64 * dt,
-        (Moment::Step(step), Moment::Time(_)) => step as f64 * dt,
+        (StateTime::Time(time), _) => time,
+        (StateTime::Step(step), StateTime::Step(first)) => step.saturating_sub(first) as f64 * dt,
+        (StateTime::Step(step), StateTime::Time(_)) => step as f64 * dt,
     };
     let times: Vec<f64> = states.iter().map(time).collect();
     match times.windows(2).position(|two| !(two[1] > two[0])) {

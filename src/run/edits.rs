@@ -1,22 +1,22 @@
-//! What a command line changes in a scene file.
+//! Changes of a scene file from a command line.
 
 use crate::document::Problem;
 use crate::scene::is_within;
 
-/// What a command line changes in a scene file.
+/// Changes of a scene file from a command line.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Edits<'a> {
-    /// Settings such as `spot.walk.bias=3`; a value that is no TOML is a text.
+    /// Settings such as `spot.walk.bias=3`; a value that is not TOML is a text.
     pub set: &'a [String],
     /// Paths of tables or keys that are left out, such as `spot.weighting`.
     pub remove: &'a [String],
-    /// Other options, each with the key that it sets once the scene is loaded: neither of the above
-    /// may say anything of it.
+    /// Other options, each with the key that it sets once the scene is loaded. The edits above must
+    /// not touch these keys.
     pub options: &'a [(&'a str, &'a str)],
 }
 
 impl Edits<'_> {
-    /// The edits that would silently win over each other; `paths` are the keys that `set` sets.
+    /// Edits that contradict each other; `paths` are the keys that `set` sets.
     pub(super) fn contradictions(&self, paths: &[String]) -> Vec<Problem> {
         let touches = |one: &str, other: &str| is_within(one, other) || is_within(other, one);
         let mut found = Vec::new();

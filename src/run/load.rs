@@ -9,29 +9,28 @@ use std::path::Path;
 
 impl Scene {
     /// Reads a scene file. Files of radii and of spheres that it names, relative to itself, are
-    /// read too: what comes back names no file and passes [`Scene::problems`].
+    /// read too: the returned scene names no file and passes [`Scene::problems`].
     ///
     /// # Errors
-    /// All that is wrong with the file, each with line, column and the fix.
+    /// All problems of the file, each with line, column and the fix.
     pub fn load(path: &Path) -> Result<Self, LoadError> {
         of_document(&Document::read(path)?)
     }
 
-    /// Like [`load`](Self::load), for a scene that is to be varied: where the file says
-    /// `dt = "auto"`, `time.safety_factor` is kept beside the number that is chosen for the scene
-    /// as it stands, so that [`Scene::with_chosen_step`] can choose another after other keys have
-    /// changed.
+    /// Like [`load`](Self::load), for a scene that will be varied: with `dt = "auto"`,
+    /// `time.safety_factor` is kept in addition to the chosen number, so that
+    /// [`Scene::with_chosen_step`] can choose again after other keys have changed.
     ///
     /// # Errors
-    /// Those of [`load`](Self::load).
+    /// As for [`load`](Self::load).
     pub fn load_base(path: &Path) -> Result<Self, LoadError> {
         load_base_with(path, Reading::RUN)
     }
 
-    /// Like [`load`](Self::load), with keys set or left out that a command line names.
+    /// Like [`load`](Self::load), with keys set or removed by a command line.
     ///
     /// # Errors
-    /// Those of [`load`](Self::load), where problems of a setting point to it; and edits that
+    /// As for [`load`](Self::load), where problems of a setting point to it; and edits that
     /// contradict each other.
     pub fn load_with(path: &Path, edits: Edits<'_>) -> Result<Self, LoadError> {
         let document = Document::read(path)?;
@@ -62,10 +61,10 @@ impl Scene {
         Ok(scene)
     }
 
-    /// Like [`load`](Self::load), with `text` for the content of the file `path`.
+    /// Like [`load`](Self::load), with `text` as the content of the file `path`.
     ///
     /// # Errors
-    /// Those of [`load`](Self::load).
+    /// As for [`load`](Self::load).
     pub fn from_toml(text: &str, path: &Path) -> Result<Self, LoadError> {
         of_document(&Document::parse(text.to_owned(), path)?)
     }
@@ -76,7 +75,7 @@ fn setting(text: &str) -> Result<Document, LoadError> {
     let path = Path::new("--set");
     let parsed = Document::parse(text.to_owned(), path);
     match text.split_once('=') {
-        // Texts need no quotes, which the shell would take away.
+        // Texts need no quotes, which the shell would remove.
         Some((key, value)) if parsed.is_err() => {
             let quoted = format!("{key}={}", Value::from(value.trim()));
             Document::parse(quoted, path).or(parsed)
@@ -85,7 +84,7 @@ fn setting(text: &str) -> Result<Document, LoadError> {
     }
 }
 
-/// An error that points to the places of problems in a file, or in the settings beside it.
+/// An error that points to the places of problems in a file or in settings.
 fn refuse(document: &Document, settings: &[Document], problems: &[Problem]) -> LoadError {
     let mut findings = Vec::new();
     for problem in problems {
@@ -118,17 +117,17 @@ pub(crate) fn base_of_document(document: &Document, reading: Reading) -> Result<
     scene.map_err(|problems| document.refuse(&problems))
 }
 
-/// What a scene is read for.
+/// The purpose for which a scene is read.
 #[derive(Clone, Copy)]
 pub(crate) struct Reading {
-    /// Puts what the purpose asks for in the place of keys that do not matter to it.
+    /// Replaces keys that do not matter for the purpose.
     pub(crate) prepare: fn(&mut Scene),
     /// Finds the problems of a scene whose step is given and whose numbers are in range.
     pub(crate) check: fn(&Scene) -> Vec<Problem>,
 }
 
 impl Reading {
-    /// To be run as it stands.
+    /// To be run unchanged.
     pub(crate) const RUN: Self = Self {
         prepare: |_| {},
         check: Scene::problems_in_range,
@@ -149,7 +148,7 @@ pub(crate) fn base_of_tree(
     }
 }
 
-/// The same of a tree in which no key that follows from others is left open.
+/// The same for a tree in which all keys that follow from others are set.
 pub(crate) fn base_of_completed(
     tree: Value,
     folder: &Path,
@@ -181,7 +180,7 @@ fn base_with_files(
     }
     let is_auto = tree["time"]["dt"] == AUTO;
     if is_auto {
-        // Any number, until the scene is there that one follows from.
+        // An arbitrary number, until the step is chosen for the complete scene.
         tree["time"]["dt"] = tree["time"]["frame_interval"].clone();
     }
     let mut scene: Scene = serde_json::from_value(tree)

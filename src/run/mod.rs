@@ -21,14 +21,14 @@ use crate::simulation::{BuildError, Counts, Profile, Simulation};
 use rayon::ThreadPoolBuildError;
 use std::ops::ControlFlow;
 
-/// How far a run is.
+/// The progress of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
     /// Frames done, the start not counted.
     pub frame: u64,
-    /// Frames in all, if nothing ends the run before its time.
+    /// All frames, if nothing ends the run early.
     pub frames: u64,
-    /// Where spheres come and go: how many did.
+    /// How many spheres came and went, if they do.
     pub counts: Option<Counts>,
     /// Work done, in the unit of the model.
     pub work: u64,
@@ -50,13 +50,13 @@ pub enum RunError {
     /// The scene cannot be built.
     #[error(transparent)]
     Build(#[from] BuildError),
-    /// The caller asked to stop.
+    /// The caller requested to stop.
     #[error("interrupted")]
     Interrupted,
 }
 
-/// Runs a scene to its end, or to the guard that it breaks. `control` is asked after every
-/// frame whether to go on.
+/// Runs a scene to its end, or until it breaks a guard. `control` decides after every frame whether
+/// to continue.
 ///
 /// # Errors
 /// If the scene cannot be built, or `control` breaks before the end.
@@ -74,8 +74,8 @@ pub fn run(
     Ok(run.finish())
 }
 
-/// A run under way: a simulation and the recorder of its frames, to be advanced frame by frame; on
-/// one thread, if it is not asked to use more.
+/// A run in progress: a simulation and the recorder of its frames, advanced frame by frame, on one
+/// thread by default.
 ///
 /// ```
 /// # let scene: phase::scene::Scene = toml::from_str(r#"
@@ -88,7 +88,7 @@ pub fn run(
 ///
 /// let mut first = Run::new(&scene)?;
 /// first.advance_frame();
-/// // What was saved of one run, another goes on from.
+/// // Another run continues from the saved state.
 /// let mut saved = Vec::new();
 /// first.save(&mut saved)?;
 /// let mut second = Run::new(&scene)?;
@@ -123,8 +123,8 @@ impl Run {
         Ok(Self::begin(scene, simulation, started))
     }
 
-    /// A run of a simulation that was built elsewhere and is at its start. The scene says how long
-    /// it runs and what is kept of it.
+    /// A run of a simulation that was built elsewhere and is at its start. The scene determines its
+    /// duration and output.
     pub fn with_simulation(scene: &Scene, simulation: Box<dyn Simulation>) -> Self {
         Self::begin(scene, simulation, cpu_time::of_this_thread())
     }
@@ -149,8 +149,7 @@ impl Run {
         self.recorder.scene()
     }
 
-    /// Advances to the next frame, or to the guard that is broken before it. A run that has ended
-    /// stays as it is.
+    /// Advances to the next frame, or until a guard breaks. A run that has ended does not change.
     pub fn advance_frame(&mut self) {
         if self.ended() {
             return;
@@ -159,21 +158,21 @@ impl Run {
         self.look();
     }
 
-    /// Advances on that many threads from now on, where it pays. No bit of the record depends on
-    /// it.
+    /// Advances on this number of threads from now on, if that pays. No bit of the record depends
+    /// on it.
     ///
     /// # Errors
-    /// If the system gives no threads.
+    /// If the system cannot start threads.
     pub fn use_threads(&mut self, threads: usize) -> Result<(), ThreadPoolBuildError> {
         self.simulation.use_threads(threads)
     }
 
-    /// Begins to measure what the parts of a step take. Never changes the run.
+    /// Begins to measure the times of the parts of a step. Never changes the run.
     pub(crate) fn keep_profile(&mut self) {
         self.simulation.keep_profile();
     }
 
-    /// What was measured, if anything is.
+    /// The profile, if one is kept.
     pub(crate) fn profile(&self) -> Option<&Profile> {
         self.simulation.profile()
     }
@@ -186,8 +185,8 @@ impl Run {
         }
     }
 
-    /// Whether the run is over: its time is up, it is steady in a scene that asks for that, a guard
-    /// is broken, or nothing more will happen.
+    /// Whether the run is over: its time is up, it is steady in a scene with `steady`, a guard is
+    /// broken, or nothing more will happen.
     pub fn ended(&self) -> bool {
         self.frame == self.frames
             || self.recorder.is_steady()
@@ -215,10 +214,10 @@ impl Run {
         self.simulation.time()
     }
 
-    /// The record of the run, of all frames so far.
+    /// The record of all frames so far.
     pub fn finish(mut self) -> RunRecord {
         if self.ended() {
-            // A large scene takes most memory now, before the last state is kept.
+            // A large scene needs most memory now, before the last state is kept.
             self.simulation.release_memory();
             let (time, recorder) = (self.simulation.time(), &mut self.recorder);
             self.simulation.look(&mut |frame| recorder.end(time, frame));
@@ -262,8 +261,8 @@ mod tests {
     use super::*;
     use crate::observe::Snapshot;
 
-    /// Symptom: a run that was asked for the last snapshot alone stored the first one too. Cause:
-    /// frame 0 is a multiple of any number.
+    /// Symptom: a run with only the last snapshot requested stored the first one too. Cause: frame
+    /// 0 is a multiple of any number.
     #[test]
     fn snapshots_are_those_that_are_asked_for() {
         let times = |interval: f64| {

@@ -1,4 +1,4 @@
-//! The one place that knows which models there are.
+//! The only place that knows all models.
 
 use super::packed::Packed;
 use crate::dem::Dem;

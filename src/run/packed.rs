@@ -40,7 +40,7 @@ impl Model for Packed {
     }
 }
 
-/// The centres of the packing above the floor (m): made before, or made now and kept.
+/// The centres of the packing above the floor (m): stored before, or made now and stored.
 fn places(scene: &Scene) -> Result<Vec<[f64; 3]>, BuildError> {
     let kept = file_of(scene);
     if let Some(places) = kept.as_ref().and_then(|it| read(it, scene.spheres.count)) {
@@ -48,14 +48,14 @@ fn places(scene: &Scene) -> Result<Vec<[f64; 3]>, BuildError> {
     }
     let places = packing::make(scene, 1).map_err(BuildError::new)?;
     if let Some(file) = kept {
-        // A packing that cannot be kept is made again the next time.
+        // A packing that cannot be stored is made again next time.
         let _ = write(&file, &places);
     }
     Ok(places)
 }
 
-/// Where the packing of a scene is kept: in the folder for such things that the system or its user
-/// names. None if neither does.
+/// The file in which the packing of a scene is stored, in the cache folder of the system or user.
+/// `None` if there is none.
 fn file_of(scene: &Scene) -> Option<PathBuf> {
     let folder = |name: &str| std::env::var_os(name).filter(|it| !it.is_empty());
     let cache = folder("XDG_CACHE_HOME").map(PathBuf::from);
@@ -64,13 +64,13 @@ fn file_of(scene: &Scene) -> Option<PathBuf> {
     Some(packings.join(packing::name(scene)))
 }
 
-/// Folder of the packings. One of `packings`, which it was, may hold heights above another floor.
+/// Folder of the packings. The earlier `packings` may hold heights above another floor.
 const FOLDER: &str = "packings-above-floor";
 
 /// Number of bytes of the checksum in front of the places.
 const CHECKSUM: usize = blake3::OUT_LEN;
 
-/// The places that a file holds, if it is whole.
+/// The places in a file, if it is intact.
 fn read(file: &PathBuf, count: usize) -> Option<Vec<[f64; 3]>> {
     let bytes = fs::read(file).ok()?;
     let (checksum, data) = bytes.split_at_checked(CHECKSUM)?;
@@ -87,7 +87,7 @@ fn read(file: &PathBuf, count: usize) -> Option<Vec<[f64; 3]>> {
     )
 }
 
-/// Writes a file in one go: another process that reads it finds all of it or none.
+/// Writes a file atomically: another process that reads it finds all of it or none.
 fn write(file: &PathBuf, places: &[[f64; 3]]) -> std::io::Result<()> {
     let folder = file.parent().ok_or(std::io::ErrorKind::NotFound)?;
     fs::create_dir_all(folder)?;

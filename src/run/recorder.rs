@@ -7,19 +7,19 @@ use crate::scene::Scene;
 use crate::simulation::{Column, Frame, Milestone, MilestoneKind};
 use serde::{Deserialize, Serialize};
 
-/// Makes the record of a run from its frames, whoever makes these: the engine here, another
-/// program, a device. It observes every frame, keeps the states that the scene's output asks for,
-/// and tests whether the run is steady.
+/// Makes the record of a run from its frames, from any source: the engine here, another program, a
+/// device. It observes every frame, keeps the states that the scene's output requests, and tests
+/// whether the run is steady.
 ///
 /// Frames come in order, the start first; the last one [comes twice](Self::end).
 pub struct Recorder {
     scene: Scene,
     recorded: Recorded,
-    /// Present in a scene that ends when it is steady.
+    /// `Some` if the scene ends when it is steady.
     steady_test: Option<SteadyTest>,
-    /// Since when the run is steady, once it is (s).
+    /// When the steady state began, once it is reached (s).
     steady_since: Option<f64>,
-    /// Absent if only the last state is asked for.
+    /// `None` if only the last state is requested.
     frames_per_snapshot: Option<u64>,
 }
 
@@ -31,7 +31,7 @@ pub(super) struct Recorded {
     trajectory: Vec<Snapshot>,
 }
 
-/// What a frame is, besides its spheres.
+/// Data of a frame besides its spheres.
 #[derive(Clone, Copy, Debug)]
 pub struct FrameInfo<'a> {
     /// Number of the frame; the start has 0.
@@ -44,7 +44,7 @@ pub struct FrameInfo<'a> {
     pub is_last: bool,
 }
 
-/// What is known of a run besides its frames, when it is over.
+/// Data of a finished run besides its frames.
 #[derive(Clone, Debug)]
 pub struct EndOfRun {
     /// How it ended.
@@ -53,17 +53,17 @@ pub struct EndOfRun {
     pub radius: Vec<f64>,
     /// Mass of every sphere of the scene that moves (kg).
     pub mass: Vec<f64>,
-    /// What happened once, in order of time.
+    /// Events that happened once, in order of time.
     pub milestones: Vec<Milestone>,
-    /// Work, in the unit of the model; 0 if it is not known.
+    /// Work, in the unit of the model; 0 if unknown.
     pub work: u64,
     /// Processor time (s).
     pub cpu_seconds: f64,
 }
 
 impl Recorder {
-    /// A recorder before the first frame, of spheres with these radii (m) and masses (kg).
-    /// `columns` are those that the model itself declares.
+    /// A recorder before the first frame, for spheres with these radii (m) and masses (kg).
+    /// `columns` are declared by the model.
     pub fn new(scene: &Scene, radius: &[f64], mass: &[f64], columns: &[Column]) -> Self {
         let ratio = scene.output.snapshot_interval / scene.time.frame_interval;
         Self {
@@ -84,12 +84,12 @@ impl Recorder {
         &self.scene
     }
 
-    /// Whether the run has become steady, in a scene that ends then.
+    /// Whether the run has become steady, in a scene that then ends.
     pub fn is_steady(&self) -> bool {
         self.steady_since.is_some()
     }
 
-    /// Records a sound frame. That of the end is kept as a state by [`end`](Self::end).
+    /// Records a valid frame. [`end`](Self::end) keeps the last one as a state.
     pub fn record(&mut self, info: FrameInfo<'_>, frame: &dyn Frame) {
         let FrameInfo { time, own, .. } = info;
         self.recorded.observer.observe_own(own);
@@ -103,7 +103,7 @@ impl Recorder {
         self.keep_trajectory(time, frame);
     }
 
-    /// Records a frame at which a guard was broken: nothing is observed any more.
+    /// Records a frame at which a guard was broken, without observing it.
     pub fn record_broken(&mut self, time: f64, frame: &dyn Frame) {
         self.keep_trajectory(time, frame);
     }
@@ -143,7 +143,7 @@ impl Recorder {
         &self.recorded
     }
 
-    /// Goes on from what had been kept until a frame.
+    /// Continues from what had been kept up to a frame.
     pub(super) fn restore(&mut self, frame: u64, recorded: Recorded) {
         self.recorded = recorded;
         self.test(frame);

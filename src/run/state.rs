@@ -1,7 +1,7 @@
 //! The state of a run between two frames, as a checkpoint keeps it.
 //!
-//! The run's own part comes first (frame, processor time, what is kept so far), then that of the
-//! simulation, which alone knows its form.
+//! The run's own part comes first (frame, processor time, recorded data), then the simulation's
+//! part, in a form that only the simulation knows.
 
 use super::Run;
 use super::recorder::Recorded;
@@ -11,12 +11,12 @@ use crate::simulation::StateError;
 use std::io;
 
 impl Run {
-    /// Whether a guard ended the run. There is nothing to go on from then.
+    /// Whether a guard ended the run. It then cannot continue.
     pub fn is_unstable(&self) -> bool {
         self.outcome != Outcome::Completed
     }
 
-    /// Writes the state at the latest frame: with the scene, all that the run goes on from. Saving
+    /// Writes the state at the latest frame: with the scene, everything needed to continue. Saving
     /// changes nothing.
     ///
     /// # Errors
@@ -30,11 +30,11 @@ impl Run {
         self.simulation.save(to)
     }
 
-    /// Takes up the state of a run of the same scene and output, saved by the same program: this
-    /// run, which must be at its start, goes on with the same bits.
+    /// Continues from the state of a run with the same scene and output, saved by the same program.
+    /// This run must be at its start; it continues with the same bits.
     ///
     /// # Errors
-    /// If the state cannot be one of this scene. The run is then as it was.
+    /// If the state cannot belong to this scene. The run is then unchanged.
     pub fn restore(&mut self, state: &[u8]) -> Result<(), StateError> {
         let own: (u64, f64, Recorded);
         let simulation;
@@ -51,7 +51,7 @@ impl Run {
 /// The frame of a saved state, the start not counted.
 ///
 /// # Errors
-/// If it is no state of a run.
+/// If it is not a state of a run.
 pub fn frame_of_state(state: &[u8]) -> Result<u64, StateError> {
     let (frame, _) = postcard::take_from_bytes(state).map_err(|_| StateError::OTHER_FORM)?;
     Ok(frame)

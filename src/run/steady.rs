@@ -4,12 +4,12 @@ use crate::observe::Observations;
 use crate::scene::{Scene, Steady};
 use crate::statistics::Trend;
 
-/// The share of a run that is looked at, if that is longer than the window. A slow relaxation that
-/// began with the run changes much in its last third, whatever the window.
+/// The share of a run that is tested, if longer than the window. A slow relaxation that began with
+/// the run still changes much in its last third, even if it looks flat over the window.
 const SHARE: u64 = 3;
 
-/// The test whether a run is steady, at frames that its scene chooses. It depends on what was
-/// observed and nothing else: resumed or not, a run ends at the same frame.
+/// The test whether a run is steady, at frames that its scene chooses. It depends only on the
+/// observations: a resumed run ends at the same frame.
 pub(super) struct SteadyTest {
     settings: Steady,
     frames_of_window: u64,
@@ -17,7 +17,7 @@ pub(super) struct SteadyTest {
     scales: Scales,
 }
 
-/// Least scales that changes are measured by.
+/// Lower bounds of the scales by which changes are measured.
 #[derive(Clone, Copy)]
 struct Scales {
     /// m g r of all spheres (J).
@@ -47,7 +47,7 @@ impl Scales {
 }
 
 impl SteadyTest {
-    /// The test of a scene that asks for one.
+    /// The test, if the scene has one.
     pub(super) fn new(scene: &Scene, radius: &[f64], mass: &[f64]) -> Option<Self> {
         let settings = scene.steady.clone()?;
         let interval = scene.time.frame_interval;
@@ -59,8 +59,8 @@ impl SteadyTest {
         })
     }
 
-    /// Time (s) since when a run is steady, if it is checked at this frame and is; with what was
-    /// observed at all frames up to it.
+    /// Start (s) of the steady state, if the run is checked at this frame and is steady, from the
+    /// observations up to this frame.
     pub(super) fn since(&self, frame: u64, observations: &Observations) -> Option<f64> {
         let length = self.frames_of_window.max(frame.div_ceil(SHARE));
         if frame < length || !frame.is_multiple_of(self.frames_per_check) {
@@ -78,7 +78,7 @@ impl SteadyTest {
         let scales = self.scales;
         let is_steady = self.is_still(&energy, scales.energy.max(mean(&energy).abs()))
             && self.is_still(&part(&observations.height_mean), scales.length)
-            // Without an axis there is none.
+            // Without an axis there is no rotation.
             && (observations.rotation.is_empty()
                 || self.is_still(&rotation, scales.rotation.max(mean(&rotation).abs())));
         is_steady.then(|| observations.time[first])

@@ -1,12 +1,12 @@
-//! Words that choose numerical settings: how accurate a scene is to be.
+//! Words that choose numerical settings for a required accuracy.
 
 use crate::document::Problem;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
-/// How accurate a scene is to be: a word for integrator, time step and frames. What each costs, and
-/// how wrong it is, was measured: docs/accuracy.md.
+/// Required accuracy: a word that chooses integrator, time step and frames. docs/accuracy.md gives
+/// the measured cost and error of each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Accuracy {
@@ -14,19 +14,19 @@ pub enum Accuracy {
     Draft,
     /// For results.
     Standard,
-    /// To compare with: what remains is far below the noise of seeds.
+    /// A reference for comparisons: its error is far below the noise of seeds.
     Reference,
 }
 
 /// The settings that a word stands for.
-struct Settings {
+struct AccuracySettings {
     integrator: &'static str,
     safety_factor: f64,
-    /// Frames in the time sqrt(r / g) in which a sphere at rest falls by half its radius.
+    /// Frames in the time sqrt(r / g), in which a sphere falls from rest by half its radius.
     frames_per_fall: f64,
 }
 
-/// Frames of a run without gravity, which has no such time.
+/// Frames of a run without gravity, where this time is undefined.
 const FRAMES_WITHOUT_GRAVITY: f64 = 1000.0;
 
 impl Accuracy {
@@ -43,19 +43,19 @@ impl Accuracy {
     }
 
     /// Chosen by the studies of `sweeps/accuracy`: `words.toml` compares the three.
-    fn settings(self) -> Settings {
+    fn settings(self) -> AccuracySettings {
         match self {
-            Self::Draft => Settings {
+            Self::Draft => AccuracySettings {
                 integrator: "symplectic-euler",
                 safety_factor: 1.0,
                 frames_per_fall: 5.0,
             },
-            Self::Standard => Settings {
+            Self::Standard => AccuracySettings {
                 integrator: "symplectic-euler",
                 safety_factor: 0.5,
                 frames_per_fall: 10.0,
             },
-            Self::Reference => Settings {
+            Self::Reference => AccuracySettings {
                 integrator: "synchronised-verlet",
                 safety_factor: 0.2,
                 frames_per_fall: 20.0,
@@ -63,11 +63,11 @@ impl Accuracy {
         }
     }
 
-    /// Replaces the key `accuracy` of the tree of a scene by the settings that it stands for. What
-    /// the scene says itself stays.
+    /// Replaces the key `accuracy` in a scene's tree by the settings that it stands for. Settings
+    /// given in the scene take precedence.
     pub(super) fn choose_settings(tree: &mut Value) -> Vec<Problem> {
         let Ok(Some(accuracy)) = Option::<Self>::deserialize(&tree["accuracy"]) else {
-            // Absent, or no such word, which the check of the keys says.
+            // Absent, or an unknown word, which the check of keys reports.
             return Vec::new();
         };
         if !tree["time"].is_object() {
@@ -107,8 +107,8 @@ impl Accuracy {
     }
 }
 
-/// The largest round time that divides the duration and has so many frames in sqrt(r / g); none if
-/// the scene does not say how long it runs.
+/// The largest round time that divides the duration and gives this many frames in sqrt(r / g);
+/// `None` if the scene does not give its duration.
 fn frame_interval(tree: &Value, frames_per_fall: f64) -> Option<f64> {
     let duration = tree["time"]["duration"].as_f64().filter(|it| *it > 0.0)?;
     let gravity = tree["gravity"]["acceleration"]

@@ -15,7 +15,8 @@ pub struct Change {
     pub scale: Vec<(String, f64)>,
 }
 
-/// Keys of which another value makes another table: what else stood there does not belong to it.
+/// Keys whose value determines the other keys of their table: with a new value, the old keys are
+/// dropped.
 const TAGS: [&str; 3] = ["law", "kind", "search"];
 
 impl Change {
@@ -48,8 +49,8 @@ impl Change {
         *self == Self::default()
     }
 
-    /// The change that makes this one and then another. A table that the first leaves out may be
-    /// set anew by the second.
+    /// The change that makes this one and then another. The second may set a table that the first
+    /// leaves out.
     pub fn then(&self, next: &Self) -> Self {
         let replaced = |path: &String| next.set.iter().any(|(new, _)| new == path);
         let first = self.set.iter().filter(|(path, _)| {
@@ -103,7 +104,7 @@ impl Change {
     /// Changes the tree of a scene.
     ///
     /// # Errors
-    /// The path of a key whose table is no table.
+    /// The path of a key whose parent is not a table.
     pub(crate) fn apply(&self, tree: &mut Value) -> Result<(), String> {
         for path in &self.remove {
             remove(tree, path);
@@ -114,14 +115,14 @@ impl Change {
         }
         let is_number = |key: &str| self.value(key).is_some_and(Value::is_number);
         if is_number("time.dt") && self.value("time.safety_factor").is_none() {
-            // It goes with a step that the program chooses.
+            // It is only valid if the program chooses the step.
             remove(tree, "time.safety_factor");
         }
         Ok(())
     }
 }
 
-/// Whether the key at `path` is `table` or stands in it.
+/// Whether the key at `path` is `table` or in it.
 pub(crate) fn is_within(path: &str, table: &str) -> bool {
     path.strip_prefix(table)
         .is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
@@ -138,7 +139,7 @@ fn collect(path: &str, value: &Value, paths: &mut Vec<String>) {
     }
 }
 
-/// The place of a key, whose tables are made if they are not there.
+/// The place of a key. Missing tables are created.
 fn place<'a>(tree: &'a mut Value, path: &str) -> Option<&'a mut Value> {
     let mut place = tree;
     for part in path.split('.') {
@@ -159,7 +160,7 @@ fn remove(tree: &mut Value, path: &str) {
     }
 }
 
-/// Puts a value in the place of another. Tables are joined key by key, unless the new one is of
+/// Puts a value in the place of another. Tables are merged key by key, unless the new one has
 /// another law or kind.
 fn merge(old: &mut Value, new: &Value) {
     let (Value::Object(table), Value::Object(keys)) = (&mut *old, new) else {

@@ -1,4 +1,4 @@
-//! What a file describes, which it says by its own keys.
+//! What a file describes, determined from its keys.
 
 use crate::document::{Document, LoadError, Problem};
 use serde_json::Value;
@@ -27,7 +27,7 @@ const STUDY_KEY: &str = "study";
 const ABLATION: &str = "ablation";
 
 impl FileKind {
-    /// The kind of a document, and the key that tells it (of a scene, `spheres`).
+    /// The kind of a document, and the key that determines it (for a scene, `spheres`).
     pub(crate) fn of(document: &Document) -> (Self, &'static str) {
         let tree: &Value = document.tree();
         let has = |key: &str| tree.get(key).is_some();
@@ -38,11 +38,11 @@ impl FileKind {
         }
     }
 
-    /// Refuses a document that is clearly of another kind. A document without a key that tells its
-    /// kind is left to the check of keys.
+    /// Refuses a document that is clearly of another kind. A document without such a key is left to
+    /// the check of keys.
     ///
     /// # Errors
-    /// What it is, with the command for it.
+    /// The kind of the document, with the command for it.
     pub(crate) fn expect(self, document: &Document) -> Result<(), LoadError> {
         let (kind, key) = Self::of(document);
         if kind == self || document.tree().get(key).is_none() {

@@ -10,7 +10,7 @@ use serde::Serialize;
 /// The keys that determine the motion, in the order in which identities are computed. Random
 /// numbers derive from the identity, so another order would change the motion.
 #[derive(Serialize)]
-struct Motion<'a> {
+struct MotionKeys<'a> {
     seed: u64,
     spheres: &'a Spheres,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -42,7 +42,7 @@ struct Motion<'a> {
     guards: &'a Guards,
     #[serde(skip_serializing_if = "Option::is_none")]
     steady: Option<&'a Steady>,
-    /// As by default.
+    /// As in the default.
     output: Output,
 }
 
@@ -50,10 +50,10 @@ fn is_empty(driven: &&[Driven]) -> bool {
     driven.is_empty()
 }
 
-impl Motion<'_> {
+impl MotionKeys<'_> {
     fn identity(&self) -> String {
-        // Numbers are written shortest-round-trip, so the text is canonical. It goes to the hash
-        // as it is written: a start of a million spheres would make a long one.
+        // Numbers are written shortest-round-trip, so the text is canonical. It is hashed while it
+        // is written, because a start with a million spheres would make a long text.
         let mut hasher = blake3::Hasher::new();
         serde_json::to_writer(&mut hasher, self).expect("a scene holds no map with odd keys");
         hasher.finalize().to_hex()[..16].to_owned()
@@ -61,14 +61,15 @@ impl Motion<'_> {
 }
 
 impl Scene {
-    /// Sixteen hexadecimal digits that stand for everything which determines the motion: all keys
-    /// but `title`, `neighbours` and `output`, and the form of the laws. Runs of equal identity
-    /// have equal bits. Every random number of a run derives from it, but for the form of a law.
+    /// Sixteen hexadecimal digits that stand for everything that determines the motion: all keys
+    /// except `title`, `neighbours` and `output`, and the form of the laws. Runs of equal identity
+    /// have equal bits. Every random number of a run derives from the identity (without the form of
+    /// a law).
     pub fn identity(&self) -> String {
         self.motion().identity()
     }
 
-    fn motion(&self) -> Motion<'_> {
+    fn motion(&self) -> MotionKeys<'_> {
         let Self {
             title: _,
             seed,
@@ -95,7 +96,7 @@ impl Scene {
             neighbours: _,
             guards,
         } = dem;
-        Motion {
+        MotionKeys {
             seed: *seed,
             spheres,
             contact,
@@ -118,7 +119,7 @@ impl Scene {
         }
     }
 
-    /// The scene without title and neighbour search, which change nothing that is measured.
+    /// The scene without title and neighbour search, which do not affect results.
     pub(crate) fn without_names(self) -> Self {
         Self {
             title: None,
@@ -130,14 +131,14 @@ impl Scene {
         }
     }
 
-    /// The random stream of this run that serves one `purpose`. Streams of different
-    /// purposes or of different runs are independent. `steady` ends a run and does not change it:
-    /// without that table it goes on with the same bits. Nor does the form of a law change them, so
+    /// The random stream of this run for one `purpose`. Streams of different purposes or of
+    /// different runs are independent. `steady` is left out: it ends a run but does not change it,
+    /// so that a run without it continues with the same bits. The form of a law is left out too, so
     /// that a run starts as it did with the earlier form.
     pub fn random_stream(&self, purpose: &str) -> rand_pcg::Pcg64 {
         use rand::SeedableRng;
         let mut hasher = blake3::Hasher::new();
-        let without_end = Motion {
+        let without_end = MotionKeys {
             steady: None,
             friction_form: None,
             ..self.motion()

@@ -9,10 +9,10 @@ use std::borrow::Cow;
 /// The key that only a scene with `dt = "auto"` has.
 const SAFETY_FACTOR_KEY: &str = "time.safety_factor";
 
-/// What list entries of a vector may be.
+/// Constraint on entries of a vector.
 static COMPONENT: Kind = Kind::Number(Range::ANY);
 
-/// Whether the key at `path` of a scene may hold a number, whatever the others hold.
+/// Whether the key at `path` of a scene may hold a number, for any values of the other keys.
 pub(crate) fn may_hold(path: &str, number: f64) -> bool {
     let mut problems = Vec::new();
     SCENE.kind.visit("", &mut |own, key| {
@@ -37,17 +37,17 @@ pub(super) struct NumericKey {
 pub struct Notation {
     /// Symbol; `_` makes a subscript of the next character or of a group in braces.
     pub symbol: &'static str,
-    /// Unit: SI, or that of the spheres if the scene is thought in those; empty for a pure number.
+    /// Unit: SI, or in units of the spheres if the scene uses these; empty for a pure number.
     pub unit: &'static str,
     /// Plain name, without the unit.
     pub name: &'static str,
 }
 
 impl Scene {
-    /// Paths of the keys that a sweep may vary: the numeric ones in the tables that this scene has,
-    /// set or left to their defaults. Without `seed`, which has its own table in a sweep, without
-    /// the keys of `output`, which change nothing, and without entries of lists, which may be
-    /// varied too (`spheres.radius[1].share`).
+    /// Paths of the keys that a sweep may vary: the numeric keys in the tables that this scene has,
+    /// set or default. Left out are `seed`, which has its own table in a sweep, the keys of
+    /// `output`, which do not change the motion, and entries of lists, although these may be varied
+    /// too (`spheres.radius[1].share`).
     pub fn numeric_keys(&self) -> Vec<String> {
         let keys = self.for_keys(&[]).all_numeric_keys().into_iter();
         keys.map(|key| key.path)
@@ -55,8 +55,8 @@ impl Scene {
             .collect()
     }
 
-    /// How figures write a numeric key, with the unit that it has in this scene. Entries of lists
-    /// have no notation.
+    /// How figures write a numeric key, with its unit in this scene. Entries of lists have no
+    /// notation.
     pub fn notation(&self, key: &str) -> Option<Notation> {
         let mut keys = self.for_keys(&[]).all_numeric_keys().into_iter();
         let own = keys.find(|known| known.path == key);
@@ -77,8 +77,8 @@ impl Scene {
         keys
     }
 
-    /// The full path of a numeric key: `key` itself, or the one path that ends in it. Of several,
-    /// one that the scene sets comes before those that it leaves to their defaults.
+    /// The full path of a numeric key: `key` itself, or the one path that ends in it. A path that
+    /// the scene sets takes precedence over default ones.
     pub(crate) fn resolve_key(&self, key: &str) -> Result<String, Problem> {
         let keys = self.for_keys(&[key]).all_numeric_keys();
         if keys.iter().any(|known| known.path == key) {
@@ -132,14 +132,14 @@ impl Scene {
         let leaves = paths.iter().map(|path| leaf(path));
         let near = suggest(key, paths.iter().map(String::as_str).chain(leaves));
         let known = format!("this scene has {}", one_of(paths));
-        Problem::new("", format!("`{key}` is no numeric key of the scene")).help(match near {
+        Problem::new("", format!("`{key}` is not a numeric key of the scene")).help(match near {
             Some(near) => format!("did you mean `{near}`? {known}"),
             None => known,
         })
     }
 
-    /// The scene, without the spheres that its start lists if no key belongs to one of them. In a
-    /// tree of values a sphere takes more than a kilobyte.
+    /// The scene, without the spheres that its start lists unless a key belongs to one of them. In
+    /// a tree of values a sphere takes more than a kilobyte.
     pub(super) fn for_keys(&self, keys: &[&str]) -> Cow<'_, Self> {
         match self.apart_from_list() {
             Some((scene, _)) if !keys.iter().any(|key| key.starts_with(LIST_KEY)) => {
@@ -156,7 +156,7 @@ pub(crate) fn leaf(path: &str) -> &str {
     last.split('[').next().unwrap_or(last)
 }
 
-/// Whether a key never changes the motion.
+/// Whether a key has no effect on the motion.
 fn is_without_effect(key: &str) -> bool {
     key.starts_with("output.") || key.starts_with("neighbours.")
 }
@@ -213,7 +213,7 @@ fn collect_table(
     path: &str,
     keys: &mut Vec<NumericKey>,
 ) {
-    // Setting a key of an absent table would add an effect.
+    // Setting a key in an absent table would add an effect.
     let Some(value) = value else { return };
     for key in &table.keys {
         let path = key.path(path);
@@ -290,7 +290,7 @@ pub(super) mod tests {
     }
 
     /// Symptom: a sweep over `density` was ambiguous in a scene with [drag]. Cause: the law has a
-    /// density of the fluid, which that scene does not set.
+    /// key for the density of the fluid, which this scene does not set.
     #[test]
     fn a_key_that_is_set_comes_before_one_that_is_not() {
         let mut scene = scene();

@@ -85,23 +85,23 @@ pub struct Scene {
     pub tank: Option<Tank>,
     /// Where and how the spheres start.
     pub start: Start,
-    /// What the discrete element model needs besides.
+    /// The part of the discrete element model.
     #[serde(flatten)]
     pub dem: DemScene,
-    /// The spot model in place of the discrete element model. Absent: the latter.
+    /// Use the spot model instead of the discrete element model. Absent: discrete element model.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub spot: Option<Spot>,
-    /// How accurate the numerics are to be: chooses `integrator`, `dt = "auto"` with its
-    /// `safety_factor`, and `frame_interval` of `time`, if the file does not say them. A scene that
-    /// runs has the chosen settings instead of this key.
+    /// Required accuracy of the numerics: chooses `integrator`, `dt = "auto"` with its
+    /// `safety_factor`, and `frame_interval` of `time`, unless the file gives them. The scene of a
+    /// run has the chosen settings instead of this key.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub accuracy: Option<Accuracy>,
     /// Time step, duration, frames, integrator.
     pub time: Time,
-    /// When the run is steady, and ends. Absent: it ends at its duration.
+    /// When the run counts as steady and ends. Absent: it ends at its duration.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub steady: Option<Steady>,
-    /// What is stored besides the observables of every frame. Never changes the motion.
+    /// Data stored in addition to the observables of every frame. Never changes the motion.
     #[serde(default)]
     pub output: Output,
 }
@@ -115,8 +115,8 @@ impl Scene {
         }
     }
 
-    /// The spheres that the start lists and that move freely, with their numbers. Driven ones keep
-    /// to their paths.
+    /// The spheres that the start lists and that move freely, with their numbers; driven ones are
+    /// left out.
     pub(crate) fn free_listed(&self) -> impl Iterator<Item = (usize, &StartSphere)> {
         let listed: &[StartSphere] = match &self.start {
             Start::List { spheres } => spheres,
@@ -128,7 +128,7 @@ impl Scene {
         numbered.filter(move |(number, _)| is_free(*number))
     }
 
-    /// The friction law at the walls of the tank, whose coefficient may be another. None without
+    /// The friction law at the walls of the tank, whose coefficient may differ. `None` without
     /// friction.
     pub fn friction_at_walls(&self) -> Option<Friction> {
         let friction = self.dem.friction.as_ref()?;
@@ -139,9 +139,9 @@ impl Scene {
         })
     }
 
-    /// Height below which spheres of the discrete element model are out (m), if they can leave. By
-    /// default of a tank with an opening, those have left that can touch none above its floor: a
-    /// diameter of the largest below it.
+    /// Height below which spheres of the discrete element model have left (m), if they can leave.
+    /// The default for a tank with an opening is one diameter of the largest sphere below the
+    /// floor, where spheres can no longer touch any above it.
     pub fn outlet_height(&self) -> Option<f64> {
         let outlet = self.dem.outlet.as_ref().map(|outlet| outlet.height);
         let tank = self.tank.as_ref().filter(|tank| tank.has_opening());
@@ -149,8 +149,8 @@ impl Scene {
         outlet.or_else(below_opening)
     }
 
-    /// Spheres that start somewhere and move for a time, and nothing that acts on them: no
-    /// contacts, no walls, no forces. Seed 1, and the default guards and output.
+    /// Spheres that move freely for a time: no contacts, no walls, no forces. Seed 1, default
+    /// guards and output.
     ///
     /// ```
     /// use phase::scene::{

@@ -1,21 +1,21 @@
-//! What is stored on the way.
+//! What a run stores.
 
 use super::is_default;
 use crate::document::{quantity, unit};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What is stored besides the observables of every frame. Never changes the motion.
+/// Data stored in addition to the observables of every frame. Never changes the motion.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Output {
-    /// Time between snapshots of all spheres (s); 0 for none but the last.
+    /// Time between snapshots of all spheres (s); 0 for the last one only.
     #[schemars(transform = quantity("Δt_{snapshot}", "s", "time between snapshots").at_least(0.0))]
     pub snapshot_interval: f64,
     /// Store position, velocity and spin of every sphere at every frame.
     pub trajectory: bool,
-    /// Balance the energy: what damping and friction dissipate, what the air does, and what
-    /// the integrator gets wrong.
+    /// Balance the energy: dissipation by damping and friction, work of the air, and the
+    /// integrator's error.
     #[serde(skip_serializing_if = "is_default")]
     pub ledger: bool,
     /// Radial bins of the surface profile. Default: round(R / 2r).

@@ -13,9 +13,9 @@ use std::path::PathBuf;
 pub enum Radii {
     /// Every sphere has this radius (m).
     One(#[schemars(transform = length("", ""))] f64),
-    /// Shares of several radii, dealt to the spheres at random.
+    /// Shares of several radii, assigned to the spheres at random.
     Shares(Vec<RadiusShare>),
-    /// One radius per sphere (m); what a file is resolved to.
+    /// One radius per sphere (m); files are converted to this form.
     Each(#[schemars(transform = length("", ""))] Vec<f64>),
     /// One radius per sphere (m), one per line, from a file.
     File {
@@ -31,15 +31,15 @@ pub struct RadiusShare {
     /// Radius (m).
     #[schemars(transform = length("", ""))]
     pub radius: f64,
-    /// Relative share of the number of spheres; shares need not add up to one, and may be 0, but
-    /// not all of them.
+    /// Relative share of the number of spheres; shares need not add up to one. Some may be 0, but
+    /// not all.
     #[schemars(transform = unit("").at_least(0.0))]
     pub share: f64,
 }
 
 impl Radii {
-    /// The radii that occur (m), of a list of spheres one per sphere. None for a file that has not
-    /// been read.
+    /// The radii that occur (m); for a list, one per sphere. Empty for a file that has not been
+    /// read.
     pub fn values(&self) -> Vec<f64> {
         match self {
             Self::One(radius) => vec![*radius],
@@ -52,7 +52,7 @@ impl Radii {
         }
     }
 
-    /// The shares of several radii; none if radii are not given so.
+    /// The shares of several radii; empty if radii are given in another way.
     pub fn shares(&self) -> &[RadiusShare] {
         match self {
             Self::Shares(shares) => shares,
@@ -75,8 +75,8 @@ impl Radii {
         self.mean_of(|radius| 4.0 / 3.0 * PI * radius * radius * radius)
     }
 
-    /// Cube root of the mean of r^3 (m), the radius of spheres of the same number and volume; not a
-    /// number for a file that has not been read.
+    /// Cube root of the mean of r^3 (m): the radius of equal spheres of the same number and total
+    /// volume; not a number for a file that has not been read.
     pub fn of_mean_volume(&self) -> f64 {
         libm::cbrt(self.mean_volume() / (4.0 / 3.0 * PI))
     }

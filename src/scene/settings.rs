@@ -1,11 +1,11 @@
-//! Keys of a scene file that follow from others, put into its tree of values before it is read.
+//! Keys of a scene file that follow from others, added to its tree of values before it is read.
 
 use super::Accuracy;
 use crate::document::Problem;
 use serde_json::Value;
 
-/// Puts in what the tree of a scene leaves open: the settings that a word for its accuracy stands
-/// for, and the step of a scene without steps.
+/// Adds what a scene's tree leaves open: the settings of its `accuracy`, and the step of a scene
+/// without steps.
 pub(crate) fn complete(tree: &mut Value) -> Vec<Problem> {
     let problems = choose_step_of_spots(tree);
     if !problems.is_empty() {
@@ -25,13 +25,13 @@ pub(crate) fn complete_scene_of(tree: &mut Value) -> Vec<Problem> {
     }
 }
 
-/// Spots have times of their own: frames are the only steps of their scenes.
+/// Spots move at their own times: frames are the only steps of their scenes.
 fn choose_step_of_spots(tree: &mut Value) -> Vec<Problem> {
     if !tree["spot"].is_object() || !tree["time"].is_object() {
         return Vec::new();
     }
     let refuse = |path: &str, message: &str| {
-        let help = "remove it: spots move at times of their own, `spot.schedule` says when";
+        let help = "remove it: spots move at their own times, set by `spot.schedule`";
         Problem::new(path, message).help(help).at_key()
     };
     let mut problems = Vec::new();
@@ -42,7 +42,8 @@ fn choose_step_of_spots(tree: &mut Value) -> Vec<Problem> {
         }
     }
     if !tree["accuracy"].is_null() {
-        let message = "`accuracy` chooses integrators and steps, which a scene of spots has not";
+        let message = "`accuracy` chooses integrators and steps, which a scene of spots does not \
+            have";
         problems.push(refuse("accuracy", message));
     }
     let interval = tree["time"]["frame_interval"].clone();

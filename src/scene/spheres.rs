@@ -15,7 +15,7 @@ pub struct Spheres {
     /// Radius r (m): one value, a list of `{ radius, share }`, or `{ file = "radii.txt" }`.
     #[schemars(transform = quantity("r", "m", "radius of the spheres"))]
     pub radius: Radii,
-    /// Density rho: of spheres that of the solid (kg/m3), of discs in kg/m2.
+    /// Density rho: for spheres of the solid (kg/m3), for discs in kg/m2.
     #[schemars(
         transform = quantity("ρ", "kg/m³", "density of the spheres")
             .at_least(1e-9)

@@ -43,21 +43,21 @@ pub enum Start {
         spin: f64,
     },
     /// A random dense packing on the floor of a tank with four sides, made by the program: spheres
-    /// at rest that touch and do not overlap, of a packing fraction of 0.64 in the bulk, and looser
-    /// between sides that are near. The seed, the number of spheres, their radius and the sides
-    /// alone choose it.
+    /// at rest that touch without overlap, with a packing fraction of 0.64 in the bulk and less
+    /// between close sides. It depends only on the seed, the number of spheres, their radius and
+    /// the sides.
     Packing {},
-    /// Every sphere listed in the scene. Spheres may overlap walls and each other, as in a state
-    /// from which a run goes on. There is a warning of overlaps that push them apart faster than
-    /// any impact of the scene. Refused are centres outside of the tank or inside a fixed sphere,
-    /// and overlaps beyond `guards.overlap`.
+    /// Every sphere listed in the scene. Spheres may overlap walls and each other, for example to
+    /// continue an earlier run. Overlaps that push spheres apart faster than any impact of the
+    /// scene cause a warning. Centres outside the tank or inside a fixed sphere, and overlaps
+    /// beyond `guards.overlap`, are refused.
     List {
         /// One entry per sphere; their number must equal `spheres.count`.
-        // A million of them are in memory once, however often the scene is copied.
+        // Shared, because the scene is copied often and may list a million spheres.
         spheres: Arc<Vec<StartSphere>>,
     },
     /// One sphere after the other, all at the same place with the same velocity, from time zero on.
-    /// No wall and no fixed sphere may be in the way there.
+    /// The place must be free of walls and fixed spheres.
     Feed {
         /// Centre of a sphere when it comes in (m).
         #[schemars(transform = unit("m"))]
@@ -66,8 +66,8 @@ pub enum Start {
         #[serde(default)]
         #[schemars(transform = unit("m/s"))]
         velocity: [f64; 3],
-        /// Time between two spheres (s); a whole number of steps. A sphere whose place is taken
-        /// waits for the next of these times.
+        /// Time between two spheres (s); a whole number of steps. A sphere whose place is occupied
+        /// waits for the next such time.
         #[schemars(
             transform = quantity("Δt_{feed}", "s", "time between spheres that come in").above(0.0)
         )]
@@ -96,7 +96,7 @@ impl Start {
         }
     }
 
-    /// The spheres of a list, to be changed.
+    /// The listed spheres, to be changed.
     pub fn list_mut(&mut self) -> Option<&mut Vec<StartSphere>> {
         match self {
             Self::List { spheres } => Some(Arc::make_mut(spheres)),
@@ -105,19 +105,18 @@ impl Start {
     }
 }
 
-/// About the packing fraction of a box of spheres, walls included.
+/// Approximate packing fraction of a box of spheres, walls included.
 const PACKING_FRACTION: f64 = 0.61;
 
 impl Scene {
-    /// About the height (m) to which the spheres fill the tank when they lie; 0 without walls all
-    /// around.
+    /// Approximate height (m) of the spheres at rest in the tank; 0 without walls all around.
     pub(crate) fn packed_height(&self) -> f64 {
         let volume = self.spheres.count as f64 * self.spheres.radius.mean_volume();
         let area = self.tank.as_ref().and_then(Tank::area);
         area.map_or(0.0, |area| volume / (PACKING_FRACTION * area))
     }
 
-    /// The scene without the spheres that its start lists, and these spheres; none if it lists
+    /// The scene without the spheres that its start lists, and these spheres; `None` if it lists
     /// none.
     pub(crate) fn apart_from_list(&self) -> Option<(Self, &[StartSphere])> {
         let Start::List { spheres } = &self.start else {
@@ -159,7 +158,7 @@ pub struct StartSphere {
 }
 
 impl StartSphere {
-    /// A sphere at rest at a place (m), with the radius that the scene gives it.
+    /// A sphere at rest at a place (m), with the scene's radius.
     pub fn at(position: [f64; 3]) -> Self {
         Self {
             position,

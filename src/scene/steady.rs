@@ -9,25 +9,25 @@ use serde::{Deserialize, Serialize};
 /// no trend over the last `window` seconds, or the last third of the run if that is longer.
 /// `time.duration` is the latest end; a run that reaches it is marked as not steady.
 ///
-/// The change of each of them over that time, plus the error of this change, must be at most
-/// `tolerance` times a scale: for the energy of motion (kinetic and rotational) its mean, or m g r
-/// of all spheres if that is larger; for the rotation its mean, or that at which a sphere at the
-/// wall has the energy m g r; for the mean height the radius of the tank, or half its narrower
-/// side, or without either the diameter of a sphere.
+/// The change of each quantity over this time, plus the error of this change, must be at most
+/// `tolerance` times a scale. For the energy of motion (kinetic and rotational) the scale is its
+/// mean, or m g r of all spheres if larger; for the rotation its mean, or the rate at which a
+/// sphere at the wall has the energy m g r; for the mean height the radius of the tank, half its
+/// narrower side, or without walls the diameter of a sphere.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Steady {
-    /// Shortest time over which there is no trend (s, default 2), rounded to whole frames. No
-    /// shorter than the longest window of the sieves, which look at this time.
+    /// Shortest time without a trend (s, default 2), rounded to whole frames. At least the longest
+    /// window of the sieves, which evaluate this time.
     #[schemars(transform = seconds("T_{steady}", "least steady time"))]
     pub window: f64,
-    /// Largest change over that time that does not matter, as a share of the scale (default 0.05).
+    /// Largest negligible change over this time, as a share of the scale (default 0.05).
     #[schemars(
         transform = quantity("δ", "", "change that does not matter").above(0.0).at_most(1.0)
     )]
     pub tolerance: f64,
-    /// Probability that one check of a run which changes by just the tolerance does not end it
-    /// (default 0.95).
+    /// Probability that one check does not end a run that changes by exactly the tolerance (default
+    /// 0.95).
     #[schemars(
         transform = unit("").at_least(0.5).at_most(0.999_999)
     )]

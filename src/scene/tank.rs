@@ -6,8 +6,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
-/// The tank's walls: a round one, or sides. They are of the material of the spheres, but for their
-/// friction, which may be another.
+/// The tank's walls: a cylinder, or plane sides. They have the material of the spheres, but may
+/// have another coefficient of friction.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Tank {
@@ -39,7 +39,7 @@ pub struct Tank {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(transform = length("W_o", "width of the slit"))]
     pub slit_width: Option<f64>,
-    /// Coefficient of friction between spheres and these walls. Default: that of `friction`.
+    /// Coefficient of friction between spheres and these walls. Default: as in `friction`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(
         transform = quantity("μ_w", "", "coefficient of friction at walls").at_least(0.0)
@@ -48,8 +48,8 @@ pub struct Tank {
 }
 
 impl Tank {
-    /// How far from the axis its walls are along x and along y (m): the radius, or half of width
-    /// and depth. None where there is no wall.
+    /// Distance of its walls from the axis along x and along y (m): the radius, or half of width
+    /// and depth. `None` if there is no wall.
     pub fn reach(&self) -> [Option<f64>; 2] {
         [self.width, self.depth].map(|side| self.radius.or(side.map(|side| 0.5 * side)))
     }
@@ -66,16 +66,16 @@ impl Tank {
         self.floor.is_some() && self.opening().is_some()
     }
 
-    /// How far inside the opening of its floor a place is (m); negative outside, and where there is
-    /// none.
+    /// How far inside the opening of its floor a place is (m); negative outside, and without an
+    /// opening.
     pub fn inside_opening(&self, x: f64, y: f64) -> f64 {
         let orifice = self.orifice_radius.map(|it| it - libm::hypot(x, y));
         let slit = self.slit_width.map(|it| 0.5 * it - x.abs());
         orifice.or(slit).unwrap_or(f64::NEG_INFINITY)
     }
 
-    /// How a centre (m) is outside of it, if it is: `outside the tank's wall`, or below its floor.
-    /// Spheres below an open floor may be on their way out, slanting by up to 45 degrees.
+    /// How a centre (m) is outside the tank, if it is: `outside the tank's wall`, or below its
+    /// floor. Spheres below an open floor may be on their way out, at an angle of up to 45 degrees.
     pub(crate) fn outside(&self, [x, y, z]: [f64; 3], is_closed: bool) -> Option<&'static str> {
         let beyond = |place: f64, reach: Option<f64>| reach.is_some_and(|it| place.abs() >= it);
         let wall = match (self.radius, self.reach()) {
@@ -91,12 +91,12 @@ impl Tank {
         }
     }
 
-    /// Whether its walls are plane, those that there are.
+    /// Whether it has plane sides.
     pub fn has_sides(&self) -> bool {
         self.width.is_some() || self.depth.is_some()
     }
 
-    /// Area that its walls enclose (m2), if they do.
+    /// Area enclosed by its walls (m2), if they are closed.
     pub fn area(&self) -> Option<f64> {
         let round = self.radius.map(|radius| PI * radius * radius);
         let sides = self.width.zip(self.depth);

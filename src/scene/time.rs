@@ -44,7 +44,7 @@ pub struct Time {
     pub resolution: Option<f64>,
 }
 
-/// The resolution of adaptive Verlet in scenes that do not say it (rad).
+/// The default resolution of adaptive Verlet (rad).
 const RESOLUTION: f64 = 0.15;
 
 impl Time {
@@ -68,7 +68,7 @@ impl Time {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Integrator {
-    /// Symplectic (semi-implicit) Euler, as the thesis: first order.
+    /// Symplectic (semi-implicit) Euler, as in the thesis: first order.
     #[default]
     SymplecticEuler,
     /// Velocity Verlet, forces at the half-step velocity: second order without
@@ -92,7 +92,7 @@ impl Integrator {
         Self::AdaptiveVerlet,
     ];
 
-    /// How far the velocities at which it evaluates forces lag behind the positions, in steps.
+    /// Lag, in steps, of the velocities behind the positions at which forces are evaluated.
     pub(crate) const fn lag(self) -> f64 {
         match self {
             Self::SymplecticEuler | Self::VelocityVerlet => 0.5,

@@ -11,7 +11,7 @@ impl Scene {
         serde_json::to_value(self).expect("a scene holds no map with odd keys")
     }
 
-    /// The scene that a text in JSON describes, as records and checkpoints keep it.
+    /// The scene described by a JSON text in a record or checkpoint.
     pub(crate) fn from_json(text: &str) -> Result<Self, serde_json::Error> {
         serde_json::from_str(text).and_then(Self::from_tree)
     }
@@ -22,8 +22,8 @@ impl Scene {
         Self::from_tree(tree).map_err(D::Error::custom)
     }
 
-    /// Refuses keys that no scene has, as another version of the program may: serde passes over
-    /// them where structs share a table.
+    /// Refuses unknown keys, for example from another version of the program: serde ignores them in
+    /// tables that several structs share.
     fn from_tree(tree: Value) -> Result<Self, serde_json::Error> {
         if let (Kind::Table(scene), Some(keys)) = (&SCENE.kind, tree.as_object()) {
             let is_known = |name: &String| scene.keys.iter().any(|key| key.name == *name);

@@ -1,9 +1,9 @@
-//! The units in which a scene is thought.
+//! The units in which a scene is best read.
 
 use super::Scene;
 
-/// The units in which a scene is thought. All numbers are SI; a scene whose spheres have a diameter
-/// of 1 m in a gravity of 1 m/s² has those of the spheres.
+/// The units in which a scene is best read. All numbers are SI; but a scene whose spheres have a
+/// diameter of 1 m in a gravity of 1 m/s² is read in units of the spheres.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Units {
     /// Metres, seconds, kilograms.
@@ -13,8 +13,8 @@ pub enum Units {
 }
 
 impl Scene {
-    /// The units in which it is thought: those of its spheres if their mean diameter is 1 m and
-    /// gravity 1 m/s². Spots know no gravity, so that their diameter decides.
+    /// The units in which it is best read: units of its spheres if their mean diameter is 1 m and
+    /// gravity 1 m/s². Scenes of spots have no gravity, so only the diameter decides.
     pub fn units(&self) -> Units {
         let gravity = self.dem.effects.gravity.as_ref();
         let of_spheres = match gravity {
@@ -30,7 +30,7 @@ impl Scene {
 }
 
 impl Units {
-    /// What they are, as records say it.
+    /// Their description in records.
     pub fn description(self) -> &'static str {
         match self {
             Self::Si => "SI: m, s, kg",
@@ -38,7 +38,8 @@ impl Units {
         }
     }
 
-    /// An SI unit as figures and text show it: the same number of d and τ. Others stay as they are.
+    /// An SI unit as figures and text show it: the same number of d and τ. Other units do not
+    /// change.
     pub fn shown(self, unit: &str) -> &str {
         match (self, unit) {
             (Self::OfSpheres, "m") => "d",

@@ -1,4 +1,4 @@
-//! A scene with other values at some of its keys.
+//! A scene with other values for some of its keys.
 
 use super::keys::NumericKey;
 use super::{Scene, Start};
@@ -8,12 +8,12 @@ use serde::Deserialize;
 use serde_json::Value;
 use std::borrow::Cow;
 
-/// A scene whose values at some keys are set again and again. Keys are looked up once, and each
-/// scene is made of the tree of values without a copy of it.
+/// A scene in which the values of some keys are set repeatedly. Keys are looked up once, and each
+/// scene is read from the tree of values without copying it.
 pub(crate) struct Template {
     tree: Value,
     keys: Vec<NumericKey>,
-    /// The start that all scenes share, if it lists spheres and no key belongs to one of them. In a
+    /// The start shared by all scenes, if it lists spheres and no key belongs to one of them. In a
     /// tree of values a sphere takes more than a kilobyte.
     start: Option<Start>,
 }
@@ -41,7 +41,7 @@ impl Template {
     /// The scene with these values, one for each key.
     ///
     /// # Errors
-    /// The values that are of the wrong kind for their keys, or out of range.
+    /// Values of the wrong type or out of range.
     pub(crate) fn with(&mut self, values: &[f64]) -> Result<Scene, Vec<Problem>> {
         let mut problems = Vec::new();
         for (key, &value) in self.keys.iter().zip(values) {
@@ -85,8 +85,8 @@ impl Scene {
     /// This scene with other values at some numeric keys.
     ///
     /// # Errors
-    /// If a path is not a numeric key of this scene, or the value is of the wrong kind for it or
-    /// out of range.
+    /// If a path is not a numeric key of this scene, or the value has the wrong type or is out of
+    /// range.
     pub fn with_values<'a>(
         &self,
         values: impl IntoIterator<Item = (&'a str, f64)>,
@@ -122,8 +122,8 @@ mod tests {
         ));
     }
 
-    /// Symptom: a sweep over a scene that lists many spheres held them once for each job. Cause:
-    /// each job's scene was made of a tree of values.
+    /// Symptom: a sweep over a scene that lists many spheres held a copy of them for each job.
+    /// Cause: each job's scene was read from a tree of values.
     #[test]
     fn listed_spheres_are_shared_unless_they_vary() {
         let mut scene = scene();

@@ -9,7 +9,7 @@ pub struct Counts {
     pub placed: usize,
     /// Spheres that came in, those from the start included.
     pub released: usize,
-    /// Spheres that left, as they should: not while a door was closed.
+    /// Spheres that left properly, not while a door was closed.
     pub discharged: usize,
     /// Spheres that left while the door was still closed: over the rim, or never in the silo.
     pub spilled: usize,
@@ -25,8 +25,8 @@ impl Counts {
         self.discharged + self.spilled
     }
 
-    /// The share of all ways in and, where spheres can leave, out that spheres went. A sphere that
-    /// was in from the start has no way in.
+    /// The share of all entries and, if spheres can leave, exits that have happened. A sphere that
+    /// was in from the start has no entry.
     pub fn share(&self) -> f64 {
         let in_done = self.released.saturating_sub(self.placed);
         let in_all = self.all.saturating_sub(self.placed);
@@ -45,8 +45,8 @@ impl Counts {
 mod tests {
     use super::*;
 
-    /// Symptom: a drainage of spheres that were all in at the start began at 50 %, and told hours
-    /// for minutes. Cause: their ways in counted as done.
+    /// Symptom: a drainage of spheres that were all in at the start began at 50 %, and forecasts
+    /// were far too long. Cause: their entries counted as done.
     #[test]
     fn spheres_that_were_in_have_no_way_in() {
         let counts = |placed, released, discharged| Counts {

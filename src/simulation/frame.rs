@@ -5,13 +5,13 @@ use ndarray::Array2;
 
 /// The spheres of a frame, block by block in the order of the scene.
 ///
-/// A [`FrameView`] shows itself as one block. A model that stores its spheres in another order puts
-/// one block at a time into the order of the scene, so no second copy of all spheres is needed.
+/// A [`FrameView`] shows itself as one block. A model that stores its spheres in another order
+/// reorders one block at a time, so no second copy of all spheres is needed.
 pub trait Frame {
     /// Number of spheres.
     fn count(&self) -> usize;
 
-    /// Shows all blocks. Each but the last one is of a multiple of [`FRAME_BLOCK`] spheres.
+    /// Shows all blocks. Each but the last has a multiple of [`FRAME_BLOCK`] spheres.
     fn show(&self, look: &mut dyn FnMut(&FrameView<'_>));
 }
 
@@ -23,59 +23,59 @@ pub const FRAME_BLOCK: usize = 4;
 ///
 /// Every slice holds one entry per sphere that moves. A sphere keeps its index throughout a run,
 /// unless spheres come and go. Fields that do not belong to single spheres describe the whole
-/// frame, in a block too.
+/// frame, even in a block.
 #[derive(Clone, Copy, Debug)]
 pub struct FrameView<'a> {
     /// Coordinates x, y and z of the centres (m).
     pub position: [&'a [f64]; 3],
     /// Components of the velocities (m/s).
     pub velocity: [&'a [f64]; 3],
-    /// Components of the spins (rad/s); absent in a scene without rotation.
+    /// Components of the spins (rad/s); `None` in a scene without rotation.
     pub spin: Option<[&'a [f64]; 3]>,
     /// Radii (m).
     pub radius: &'a [f64],
     /// Masses (kg).
     pub mass: &'a [f64],
-    /// Moments of inertia about the centre (kg m2); read only where there are spins.
+    /// Moments of inertia about the centre (kg m2); read only with spins.
     pub inertia: &'a [f64],
     /// Elastic energy of all contacts (J).
     pub elastic_energy: f64,
-    /// Where the energy went; absent if the scene's output does not ask for it.
+    /// Energy balance; `None` if the scene's output does not ask for it.
     pub ledger: Option<Ledger>,
-    /// Number of each sphere among all of the scene, counted from 0, in rising order; absent where
-    /// none comes or goes.
+    /// Number of each sphere in the scene, counted from 0, in ascending order; `None` if no sphere
+    /// comes or goes.
     pub number: Option<&'a [u32]>,
-    /// How spheres come and go; absent where none does.
+    /// How spheres come and go; `None` if none does.
     pub flow: Option<Flow>,
 }
 
-/// Where the energy went since the start (J).
+/// Energy balance since the start (J).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Ledger {
-    /// What tangential springs hold.
+    /// Energy in tangential springs.
     pub springs: f64,
-    /// What the damping of contacts dissipated.
+    /// Dissipation by the damping of contacts.
     pub damping: f64,
-    /// What friction dissipated: the work done against tangential forces that springs do not hold.
+    /// Dissipation by friction: the work done against tangential forces that springs do not store.
     pub friction: f64,
-    /// Work of the air, the damping of spins included.
+    /// Work of the air, including the damping of spins.
     pub air: f64,
-    /// Energy of the spheres that came in, less that of those that left.
+    /// Energy of spheres that came in, minus the energy of spheres that left.
     pub brought: f64,
 }
 
 /// How spheres come and go.
 #[derive(Clone, Copy, Debug)]
 pub struct Flow {
-    /// Spheres of the scene, those included that are not in yet or have left.
+    /// Spheres of the scene, including those that are not in yet or have left.
     pub spheres: usize,
     /// Spheres that came in so far.
     pub released: usize,
-    /// Spheres that left so far, as they should: not while a door was closed.
+    /// Spheres that left properly so far, not while a door was closed.
     pub discharged: usize,
     /// Spheres that left while the door was still closed.
     pub spilled: usize,
-    /// Contacts of the spheres of the frame, one between two of them counted for each.
+    /// Contacts of the frame's spheres. A contact between two of them counts twice.
     pub contacts: usize,
 }
 
@@ -97,14 +97,13 @@ impl Frame for FrameView<'_> {
 }
 
 impl Snapshot {
-    /// A copy of all spheres of a frame at `time` (s). Where spheres come and go, one that is not
-    /// in has no numbers (NaN).
+    /// A copy of all spheres of a frame at `time` (s). Spheres that are not in are NaN.
     pub fn take(time: f64, frame: &dyn Frame) -> Self {
-        let mut rows = Rows::default();
+        let mut rows = SnapshotRows::default();
         let mut first = 0;
         frame.show(&mut |block| {
             if first == 0 {
-                rows = Rows::new(frame.count(), block);
+                rows = SnapshotRows::new(frame.count(), block);
             }
             rows.add(first, block);
             first += block.count();
@@ -121,10 +120,10 @@ impl Snapshot {
 
 /// Positions, velocities and spins, one row per sphere.
 #[derive(Default)]
-struct Rows([Array2<f64>; 3]);
+struct SnapshotRows([Array2<f64>; 3]);
 
-impl Rows {
-    /// Of spheres that are not in.
+impl SnapshotRows {
+    /// Rows of spheres that are not in.
     fn new(count: usize, view: &FrameView<'_>) -> Self {
         let rows = |rows| match view.flow {
             Some(flow) => Array2::from_elem((flow.spheres, 3), f64::NAN),
@@ -137,7 +136,7 @@ impl Rows {
         Self([rows(count), rows(count), spin])
     }
 
-    /// Adds a block of spheres, the first of which has that place among all of the frame.
+    /// Adds a block of spheres. `first` is the place of its first sphere in the frame.
     fn add(&mut self, first: usize, block: &FrameView<'_>) {
         let all = [Some(block.position), Some(block.velocity), block.spin];
         for (rows, components) in self.0.iter_mut().zip(all) {
@@ -148,8 +147,8 @@ impl Rows {
                 let sphere = block.number.map_or(first + at, |it| it[at] as usize);
                 for (axis, component) in components.iter().enumerate() {
                     let (entry, value) = (&mut rows[[sphere, axis]], component[at]);
-                    // What is zero already is left alone: memory that was never written takes none,
-                    // and many spheres start at rest.
+                    // Zeros are not written: untouched pages take no memory, and many spheres start
+                    // at rest.
                     if entry.to_bits() != value.to_bits() {
                         *entry = value;
                     }

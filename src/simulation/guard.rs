@@ -10,8 +10,8 @@ pub struct Instability {
     pub step: u64,
     /// Time of that step (s).
     pub time: f64,
-    /// Number of the sphere among those of the scene's start, from 0; in the program while it is
-    /// found, its index in memory. Fixed spheres break no guard, and do not count.
+    /// Number of the sphere in the scene's start, from 0 (inside the engine, its index in memory).
+    /// Fixed spheres break no guard and do not count.
     pub sphere: usize,
     /// The value that broke the limit, and the limit.
     pub detail: String,
@@ -20,7 +20,7 @@ pub struct Instability {
 /// A numerical guard.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Guard {
-    /// A position or velocity is not a number, or a spin beyond all numbers.
+    /// A position or velocity is not a number, or a spin is infinite.
     NotANumber,
     /// A centre is out of bounds.
     OutOfBounds,
@@ -30,9 +30,9 @@ pub enum Guard {
     Displacement,
     /// A disc passed between two fixed ones where there is no way through.
     WallPassed,
-    /// More spheres are near one sphere than can be.
+    /// More spheres are near one sphere than is possible.
     Crowded,
-    /// A spot found no sphere, though there are spheres above it.
+    /// A spot found no sphere, although there are spheres above it.
     EmptySpot,
 }
 

@@ -17,13 +17,13 @@ pub struct Milestone {
 pub enum MilestoneKind {
     /// The last sphere came in.
     Filled,
-    /// The spheres came to rest; the time is that from which they were.
+    /// The spheres came to rest; the time is when rest began.
     AtRest,
     /// The door opened.
     DoorOpened,
     /// The last sphere left.
     Emptied,
-    /// The run became steady; the time is that from which it was.
+    /// The run became steady; the time is when the steady state began.
     Steady,
 }
 

@@ -1,4 +1,4 @@
-//! What the program knows of a running model, whichever it is.
+//! The interface of running models to the rest of the program.
 
 mod column;
 mod counts;

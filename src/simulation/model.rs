@@ -1,4 +1,4 @@
-//! The door between the program and its models.
+//! The interface between the program and its models.
 
 use super::{Column, Counts, Frame, Instability, Milestone, PartOfStep, Profile};
 use crate::forces::simplification::Simplification;
@@ -7,12 +7,12 @@ use rayon::ThreadPoolBuildError;
 use std::error::Error;
 use std::io;
 
-/// A kind of simulation: what can be said of a scene before it runs, and how to run it.
+/// A kind of simulation: properties of a scene before it runs, and how to run it.
 pub trait Model: Sync {
     /// The unit in which the model counts its work, such as `sphere-steps`.
     fn work_unit(&self) -> &'static str;
 
-    /// Work of a whole run of the scene, at most.
+    /// Upper bound of the work of a whole run.
     fn work_of(&self, scene: &Scene) -> u64;
 
     /// The parts of a step that cost time, whether the scene has them or not.
@@ -30,8 +30,8 @@ pub trait Model: Sync {
     fn build(&self, scene: &Scene) -> Result<Box<dyn Simulation>, BuildError>;
 }
 
-/// A running model, advanced frame by frame. Runs, checkpoints, sweeps and costs know nothing else
-/// of it.
+/// A running model, advanced frame by frame. Runs, checkpoints, sweeps and costs use only this
+/// interface.
 pub trait Simulation {
     /// Advances to the next frame.
     ///
@@ -42,7 +42,7 @@ pub trait Simulation {
     /// Time (s).
     fn time(&self) -> f64;
 
-    /// Whether nothing more will happen, however long the run goes on.
+    /// Whether nothing more will happen, however long the run continues.
     fn ended(&self) -> bool {
         false
     }
@@ -59,7 +59,7 @@ pub trait Simulation {
     /// Shows the present frame. Looking never changes the motion.
     fn look(&mut self, look: &mut dyn FnMut(&dyn Frame));
 
-    /// Scalars that the model itself declares, besides those that are observed on the spheres.
+    /// Scalars that the model declares, besides observables of the spheres.
     fn columns(&self) -> &[Column] {
         &[]
     }
@@ -69,18 +69,18 @@ pub trait Simulation {
         Vec::new()
     }
 
-    /// Writes the state between two frames: with the scene, all that the simulation goes on from.
-    /// Saving never changes the motion.
+    /// Writes the state between two frames: with the scene, everything needed to continue. Saving
+    /// never changes the motion.
     ///
     /// # Errors
     /// If `to` cannot be written.
     fn save(&self, to: &mut dyn io::Write) -> io::Result<()>;
 
-    /// Takes up a state that the same program saved of the same scene. The simulation must be at
-    /// its start, and goes on with the bits of the one that was saved.
+    /// Continues from a state that the same program saved for the same scene. The simulation must
+    /// be at its start, and continues with the bits of the saved one.
     ///
     /// # Errors
-    /// If the state cannot be one of this scene. The simulation is then as it was.
+    /// If the state cannot belong to this scene. The simulation is then unchanged.
     fn restore(&mut self, state: &[u8]) -> Result<(), StateError>;
 
     /// How many spheres came and went, in a scene where they do.
@@ -93,10 +93,10 @@ pub trait Simulation {
         &[]
     }
 
-    /// Advances on that many threads from now on, where it pays. No bit depends on it.
+    /// Advances on this number of threads from now on, if that pays. No bit depends on it.
     ///
     /// # Errors
-    /// If the system gives no threads.
+    /// If the system cannot start threads.
     fn use_threads(&mut self, _threads: usize) -> Result<(), ThreadPoolBuildError> {
         Ok(())
     }
@@ -106,14 +106,15 @@ pub trait Simulation {
         0.0
     }
 
-    /// Releases memory that no look at the spheres needs. Nothing follows but such looks.
+    /// Releases memory that is not needed for looking at the spheres. The simulation must not be
+    /// advanced any further.
     fn release_memory(&mut self) {}
 
-    /// Begins to measure what the parts of a step take. Never changes the motion.
+    /// Begins to measure the times of the parts of a step. Never changes the motion.
     fn keep_profile(&mut self) {}
 
-    /// What was measured since [`keep_profile`](Self::keep_profile); none from a model that does
-    /// not measure.
+    /// The profile since [`keep_profile`](Self::keep_profile); `None` from a model that does not
+    /// measure.
     fn profile(&self) -> Option<&Profile> {
         None
     }
@@ -137,6 +138,6 @@ impl BuildError {
 pub struct StateError(pub &'static str);
 
 impl StateError {
-    /// What cannot be read as a state at all.
+    /// The content cannot be read as a state.
     pub const OTHER_FORM: Self = Self("its content has another form");
 }

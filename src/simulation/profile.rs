@@ -1,4 +1,4 @@
-//! What the parts of a step take, measured on request.
+//! Times of the parts of a step, measured on request.
 
 use crate::cpu_time;
 
@@ -7,20 +7,20 @@ use crate::cpu_time;
 pub struct PartOfStep {
     /// Its name in tables.
     pub name: &'static str,
-    /// Whether the scene has it at all. What it does not have costs nothing.
+    /// Whether the scene has it. An absent part costs nothing.
     pub is_present: bool,
-    /// Whether it works between the steps, so that the time between them is its own.
+    /// Whether it works between the steps, so that the time between them belongs to it.
     pub is_between_steps: bool,
 }
 
 /// A profile of a running engine.
 ///
-/// The total is the processor time of the thread. How it divides into parts is found in some of the
-/// steps, in which the clock is read between the parts; the others run as they always do. What
-/// reading the clock takes is left out of all times.
+/// The total is the processor time of the thread. Its division into parts is measured in some of
+/// the steps, in which the clock is read between the parts; the other steps run as usual. The time
+/// to read the clock is subtracted everywhere.
 #[derive(Clone, Debug)]
 pub struct Profile {
-    /// What one reading of the clock takes (s).
+    /// Time of one reading of the clock (s).
     reading: f64,
     /// Times of the parts in the steps that were measured (s).
     looked_at: Vec<f64>,
@@ -28,7 +28,7 @@ pub struct Profile {
     whole: Vec<f64>,
     /// When such a part began (s).
     begun: f64,
-    /// The part that takes all of the time when no step was measured.
+    /// The part to which all time belongs if no step was measured.
     rest: usize,
     /// The latest reading, while a step is measured (s).
     latest: Option<f64>,
@@ -40,11 +40,11 @@ pub struct Profile {
     work: u64,
 }
 
-/// Readings by which a profile finds what one takes.
+/// Number of readings from which the time of one is found.
 const TRIALS: u32 = 2000;
 
 impl Profile {
-    /// An empty profile of that many parts. If no step is measured, all time counts as that of the
+    /// An empty profile with this number of parts. If no step is measured, all time belongs to the
     /// part `rest`.
     pub fn new(parts: usize, rest: usize) -> Self {
         let started = cpu_time::of_this_thread();
@@ -71,7 +71,7 @@ impl Profile {
         self.inside - self.readings as f64 * self.reading
     }
 
-    /// What reading the clock took (s).
+    /// Total time of reading the clock (s).
     pub fn readings(&self) -> f64 {
         self.readings as f64 * self.reading
     }
@@ -96,7 +96,7 @@ impl Profile {
         parts
     }
 
-    /// What one reading of the clock takes (s).
+    /// Time of one reading of the clock (s).
     pub fn reading(&self) -> f64 {
         self.reading
     }
@@ -128,7 +128,7 @@ impl Profile {
     #[inline(never)]
     pub fn sample(&mut self, step: u64, spheres: usize) {
         // The clock is read a dozen times for 128 spheres, half a microsecond each, in a step of
-        // some 50 ns per sphere: with one step of 16 at most that adds some percent to it.
+        // about 50 ns per sphere: with at most one step in 16 this adds a few percent.
         let period = (8192 / spheres.max(1) as u64).clamp(16, 256);
         // Multiples of the golden ratio are spread evenly over any rhythm of steps, such as that of
         // the neighbour list.
@@ -139,13 +139,13 @@ impl Profile {
         });
     }
 
-    /// Begins what is measured each time, between the steps that are measured in part.
+    /// Begins an operation that is measured each time, between the sampled steps.
     pub fn begin_whole(&mut self) {
         self.readings += 1;
         self.begun = cpu_time::of_this_thread();
     }
 
-    /// Ends it: it was all of one part.
+    /// Ends it; all of its time belongs to one part.
     pub fn end_whole(&mut self, part: usize) {
         self.readings += 1;
         let seconds = cpu_time::of_this_thread() - self.begun - self.reading;

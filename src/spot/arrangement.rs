@@ -1,11 +1,11 @@
 //! The order of the spheres in the arrays, and what stays valid until the next sorting.
 //!
-//! Spheres are sorted by cell, and lists of neighbours are made, when a sphere has moved so far
-//! that they could miss something. Until then no array but that of the positions changes.
+//! Spheres are sorted by cell, and neighbour lists are made, when a sphere has moved so far that
+//! the lists could miss a pair. Until then only the positions change.
 
-use super::cells::Cells;
+use super::cells::SphereCells;
 use super::guard::Fault;
-use super::neighbours::Neighbours;
+use super::neighbours::NeighbourLists;
 use super::parameters::{Parameters, Relaxation};
 use super::region::NOWHERE;
 use super::slack::Slack;
@@ -23,20 +23,20 @@ pub(crate) struct Sorting<'a> {
     pub(crate) slack: Slack,
 }
 
-/// What sorting has made.
+/// The result of sorting.
 #[derive(Clone, Debug)]
 pub(crate) struct Arrangement {
-    /// Number of spheres, those included that have left since.
+    /// Number of spheres, including those that have left since.
     pub(crate) spheres: usize,
     /// Number of each sphere in the start packing.
     pub(crate) id: Vec<u32>,
     /// Centres at the time of sorting (m).
     pub(crate) reference: Vec<Vector>,
-    pub(crate) neighbours: Neighbours,
+    pub(crate) neighbours: NeighbourLists,
     /// Squares of distances from the references (m2). If one is exceeded, the spheres must be
     /// sorted before the next move.
     pub(crate) farthest_squared: Vec<f64>,
-    pub(crate) cells: Cells,
+    pub(crate) cells: SphereCells,
     slack: Slack,
     surface: Surface,
     /// Height of the highest centre (m), 0 without spheres.
@@ -44,11 +44,11 @@ pub(crate) struct Arrangement {
 }
 
 impl Arrangement {
-    /// Sorts spheres and finds their neighbours. `position` is filled up for vectors.
+    /// Sorts spheres and finds their neighbours. `position` is padded for vector instructions.
     pub(crate) fn sorted(
         sorting: Sorting<'_>,
         (position, id): (&mut Vec<Vector>, Vec<u32>),
-        neighbours: Neighbours,
+        neighbours: NeighbourLists,
     ) -> Result<Self, Fault> {
         position.truncate(id.len());
         let mut cells = cells_for(sorting.parameters, position);
@@ -69,14 +69,14 @@ impl Arrangement {
         let mut cells = cells_for(sorting.parameters, &reference);
         cells.sort(&reference);
         fill_up(&mut reference);
-        let parts = (cells, Neighbours::new());
+        let parts = (cells, NeighbourLists::new());
         Self::of(sorting, (reference, id), parts)
     }
 
     fn of(
         sorting: Sorting<'_>,
         (reference, id): (Vec<Vector>, Vec<u32>),
-        (cells, mut neighbours): (Cells, Neighbours),
+        (cells, mut neighbours): (SphereCells, NeighbourLists),
     ) -> Result<Self, Fault> {
         let Sorting {
             level,
@@ -117,10 +117,10 @@ impl Arrangement {
     }
 }
 
-fn cells_for(parameters: &Parameters, position: &[Vector]) -> Cells {
+fn cells_for(parameters: &Parameters, position: &[Vector]) -> SphereCells {
     let height = position.iter().fold(0.0, |most: f64, it| most.max(it.z));
     let halves = [parameters.half_width, parameters.half_depth];
-    Cells::new(parameters.diameter, halves, height)
+    SphereCells::new(parameters.diameter, halves, height)
 }
 
 fn fill_up(position: &mut Vec<Vector>) {

@@ -2,8 +2,8 @@
 
 use super::arrangement::Arrangement;
 use super::guard::Fault;
-use super::model::{Model, Scratch};
-use super::walk::Spot;
+use super::model::{Scratch, SpotRules};
+use super::walk::MovingSpot;
 use crate::particles::vector::Vector;
 
 /// A move of a spot.
@@ -17,47 +17,48 @@ pub(super) struct Move {
 
 /// What a move has done.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Done {
+pub(super) struct MadeMove {
     /// Index of the spot.
     pub(super) spot: u32,
-    /// The spot after its move, and whether it was relaxed around it; None if it is to be removed.
-    pub(super) result: Option<(Spot, bool)>,
+    /// The spot after its move, and whether spheres around it were relaxed; `None` if it is to be
+    /// removed.
+    pub(super) result: Option<(MovingSpot, bool)>,
 }
 
 /// Moves of different spots in their order, and what they depend on.
 #[derive(Clone, Copy)]
-pub(super) struct Batch<'a> {
-    pub(super) model: &'a Model,
+pub(super) struct MoveBatch<'a> {
+    pub(super) model: &'a SpotRules,
     pub(super) arrangement: &'a Arrangement,
-    pub(super) spots: &'a [Spot],
+    pub(super) spots: &'a [MovingSpot],
     pub(super) moves: &'a [Move],
 }
 
-/// What was made of a batch: all of it, or all up to the first move after which the spheres must be
-/// sorted, or which broke a guard.
+/// The part of a batch that was made: all of it, or all up to the first move after which the
+/// spheres must be sorted or which broke a guard.
 #[derive(Debug)]
 pub(super) struct Made {
     /// Number of moves that were made or begun.
     pub(super) moves: usize,
     /// What they have done, in any order.
-    pub(super) done: Vec<Done>,
+    pub(super) done: Vec<MadeMove>,
     /// The guard that the last one broke.
     pub(super) fault: Option<Fault>,
 }
 
-impl Batch<'_> {
+impl MoveBatch<'_> {
     /// Makes one move.
     pub(super) fn make(
         &self,
         number: usize,
         position: &mut [Vector],
         scratch: &mut Scratch,
-    ) -> Result<Done, Fault> {
+    ) -> Result<MadeMove, Fault> {
         let Move { spot, random } = self.moves[number];
         let mut moved = self.spots[spot as usize];
         let spheres = (self.arrangement, position);
         let relaxed = self.model.make_move(spheres, scratch, &mut moved, random)?;
-        Ok(Done {
+        Ok(MadeMove {
             spot,
             result: relaxed.map(|relaxed| (moved, relaxed)),
         })

@@ -1,4 +1,4 @@
-//! What the threads of a batch tell their neighbours: how far they are, and what they have moved.
+//! What the threads of a batch report to their neighbours: progress, and moved spheres.
 
 use crate::particles::vector::Vector;
 use std::ops::Range;
@@ -6,15 +6,15 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Slot of a sphere, and its new centre (m).
-type Moved = (u32, [f64; 3]);
+type MovedSphere = (u32, [f64; 3]);
 
-/// What one thread tells the strips below and above.
+/// Reports of one thread to the strips below and above.
 #[derive(Debug, Default)]
 #[repr(align(128))]
 pub(super) struct Board {
     /// How many of the moves that it shares have been made.
     shared: AtomicU32,
-    moved: [Mutex<Vec<Moved>>; 2],
+    moved: [Mutex<Vec<MovedSphere>>; 2],
 }
 
 impl Board {
@@ -24,7 +24,7 @@ impl Board {
         self.moved.iter().for_each(|moved| lock(moved).clear());
     }
 
-    /// Notes where spheres are now, for the strip on one side, as far as it watches their slots.
+    /// Notes the present places of spheres whose slots the strip on one side watches.
     pub(super) fn note<'a>(
         &self,
         side: usize,
@@ -45,7 +45,7 @@ impl Board {
         self.shared.store(shared, Ordering::Release);
     }
 
-    /// Whether that many moves have been shared.
+    /// Whether this many moves have been shared.
     pub(super) fn has_shown(&self, shared: u32) -> bool {
         self.shared.load(Ordering::Acquire) >= shared
     }
@@ -62,9 +62,9 @@ impl Board {
 
 /// What was taken from a board.
 #[derive(Debug, Default)]
-pub(super) struct Inbox(Vec<Moved>);
+pub(super) struct Inbox(Vec<MovedSphere>);
 
-/// Locks, whatever has become of another thread that held the lock.
+/// Locks, even if another thread panicked while it held the lock.
 pub(super) fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -1,7 +1,7 @@
 //! Cells that spheres are sorted into, and the ranges of the arrays that a region covers.
 //!
-//! Cells follow one another along y, then x, then z. A thin box is covered along y by the regions
-//! of spots, so that what lies in one layer of such a region is a single range.
+//! Cells follow one another along y, then x, then z. In a thin box the regions of spots span all of
+//! y, so that each layer of such a region is a single range.
 
 use crate::particles::vector::Vector;
 use std::ops::Range;
@@ -14,7 +14,7 @@ const LENGTH_ALONG_Y: f64 = 4.0;
 
 /// Cells of spheres that are sorted by cell.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Cells {
+pub(crate) struct SphereCells {
     count: [usize; 3],
     /// Least corner (m).
     origin: [f64; 3],
@@ -25,7 +25,7 @@ pub(crate) struct Cells {
     first: Vec<u32>,
 }
 
-impl Cells {
+impl SphereCells {
     /// Empty cells for spheres of a diameter in a box up to a height (m).
     pub(crate) fn new(diameter: f64, [half_width, half_depth]: [f64; 2], height: f64) -> Self {
         let extent = [2.0 * half_width, 2.0 * half_depth, height + diameter];
@@ -133,16 +133,16 @@ impl Cells {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::spot::random::Stream;
+    use crate::spot::random::RandomStream;
 
     #[test]
     fn ranges_hold_all_spheres_of_a_region_once() {
         for half_depth in [2.0, 9.0] {
-            let mut random = Stream::new("cells", 3);
+            let mut random = RandomStream::new("cells", 3);
             let mut along = |half: f64| (2.0 * random.uniform() - 1.0) * half;
             let mut place = || Vector::new(along(6.0), along(half_depth), 5.0 + along(5.0));
             let spheres: Vec<Vector> = (0..2000).map(|_| place()).collect();
-            let mut cells = Cells::new(1.0, [6.0, half_depth], 10.0);
+            let mut cells = SphereCells::new(1.0, [6.0, half_depth], 10.0);
             let order = cells.sort(&spheres);
             let mut ranges = Vec::new();
             for _ in 0..50 {

@@ -1,11 +1,11 @@
-//! Which parameters mean something.
+//! Checks of parameters.
 
-use super::parameters::{Influence, Orifice, Parameters, Relaxation, Walk};
+use super::parameters::{Influence, Parameters, Relaxation, SpotOpening, Walk};
 
 /// Insertions or moves per second above which a run cannot end.
 const GREATEST_RATE: f64 = 1e9;
 
-/// A parameter that cannot be.
+/// An invalid parameter.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{parameter} is {value}, but must be {requirement}")]
 pub struct ParameterError {
@@ -21,7 +21,7 @@ pub struct ParameterError {
 type Condition = (&'static str, f64, bool, String);
 
 impl Parameters {
-    /// Finds the first parameter that cannot be.
+    /// Finds the first invalid parameter.
     ///
     /// # Errors
     ///
@@ -36,7 +36,7 @@ impl Parameters {
         first_broken(conditions.into_iter().flatten())
     }
 
-    /// The same of what a packing depends on: the box, and the spheres in it.
+    /// The same for the parameters of a packing: the box, and the spheres in it.
     pub(super) fn check_box(&self) -> Result<(), ParameterError> {
         first_broken(self.conditions_on_the_box())
     }
@@ -55,8 +55,8 @@ impl Parameters {
         let (wide, deep) = (self.half_width, self.half_depth);
         let radius = self.spot_radius;
         let (name, opening, room) = match self.orifice {
-            Orifice::Circle { radius } => ("orifice radius", radius, wide.min(deep)),
-            Orifice::Slit { half_width } => ("orifice half-width", half_width, wide),
+            SpotOpening::Circle { radius } => ("orifice radius", radius, wide.min(deep)),
+            SpotOpening::Slit { half_width } => ("orifice half-width", half_width, wide),
         };
         let room_for_spots = wide.min(deep);
         vec![
@@ -185,7 +185,7 @@ mod tests {
         assert_eq!(refused(|it| it.wall_distance = 4.0), "wall_distance");
         assert_eq!(refused(|it| it.wall_distance = f64::NAN), "wall_distance");
         assert_eq!(refused(|it| it.move_rate = f64::INFINITY), "move_rate");
-        let wide = Orifice::Circle { radius: 4.1 };
+        let wide = SpotOpening::Circle { radius: 4.1 };
         assert_eq!(refused(|it| it.orifice = wide), "orifice radius");
         let never = Relaxation::Global { ratio: 0 };
         assert_eq!(refused(|it| it.relaxation = never), "relaxation ratio");

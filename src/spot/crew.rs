@@ -1,14 +1,14 @@
-//! The moves of a batch on several threads, with the bits of one.
+//! The moves of a batch on several threads, with the same bits as on one.
 //!
-//! If the spheres must be sorted after a move, or a guard breaks, other threads may have made later
-//! moves already. All is then made again up to that move.
+//! If the spheres must be sorted after a move, or a guard breaks, other threads may already have
+//! made later moves. The batch is then repeated up to this move.
 
-use super::batch::{Batch, Made};
+use super::batch::{Made, MoveBatch};
 use super::board::{Board, lock};
 use super::model::Scratch;
 use super::parameters::Schedule;
-use super::strips::{Plan, Planner};
-use super::worker::{Task, Worker};
+use super::strips::{Planner, StripPlan};
+use super::worker::{StripTask, Worker};
 use crate::particles::vector::Vector;
 use rayon::ThreadPool;
 use std::sync::Mutex;
@@ -23,7 +23,7 @@ pub(crate) struct Crew {
     pool: ThreadPool,
     workers: Vec<Mutex<Worker>>,
     boards: Vec<Board>,
-    plan: Plan,
+    plan: StripPlan,
     /// Time that a move takes in each strip (s). The bits do not depend on it.
     costs: Vec<f64>,
 }
@@ -35,7 +35,7 @@ impl Crew {
             pool,
             workers: (0..threads).map(|_| Mutex::default()).collect(),
             boards: (0..threads).map(|_| Board::default()).collect(),
-            plan: Plan::default(),
+            plan: StripPlan::default(),
             costs: Vec::new(),
         }
     }
@@ -48,7 +48,7 @@ impl Crew {
     /// Makes moves until the spheres must be sorted.
     pub(super) fn make_moves(
         &mut self,
-        batch: &Batch<'_>,
+        batch: &MoveBatch<'_>,
         position: &mut [Vector],
         scratch: &mut Scratch,
     ) -> Made {
@@ -69,7 +69,7 @@ impl Crew {
             let end = AtomicUsize::new(most);
             self.boards.iter().for_each(Board::clear);
             self.pool.broadcast(|context| {
-                let task = Task {
+                let task = StripTask {
                     batch,
                     planner: &planner,
                     plan: &self.plan,
@@ -90,7 +90,7 @@ impl Crew {
         }
     }
 
-    /// Puts together what the threads have done.
+    /// Merges the results of the threads.
     fn merged(&mut self, moves: usize, position: &mut [Vector], scratch: &mut Scratch) -> Made {
         let mut made = Made {
             moves,
@@ -123,10 +123,10 @@ mod tests {
     use crate::spot::batch::Move;
     use crate::spot::parameters::{Parameters, Relaxation};
     use crate::spot::samples;
-    use crate::spot::simulation::Simulation;
+    use crate::spot::simulation::SpotSimulation;
 
     /// Small spots, so that a small box has several strips.
-    fn flowing(change: impl Fn(&mut Parameters)) -> Simulation {
+    fn flowing(change: impl Fn(&mut Parameters)) -> SpotSimulation {
         let mut simulation = samples::simulation(|it| {
             it.spot_radius = 1.4;
             it.relaxation_radius = 1.2;
@@ -156,7 +156,7 @@ mod tests {
                     random: [0.1 + 0.2 * f64::from(k % 4), f64::from(k % 2)],
                 })
                 .collect();
-            let batch = Batch {
+            let batch = MoveBatch {
                 model: &simulation.model,
                 arrangement: &simulation.arrangement,
                 spots,

@@ -1,10 +1,10 @@
 //! The spot model as a model of the program.
 
 use super::parameters::{
-    Influence, Orifice, Parameters, Relaxation, Schedule, Walk as WalkParameters,
+    Influence, Parameters, Relaxation, Schedule, SpotOpening, Walk as WalkParameters,
 };
 use super::profile;
-use super::{Failure, Guard as SpotGuard, Simulation as Spots};
+use super::{SpotFailure, SpotGuard, SpotSimulation};
 use crate::particles::vector::Vector;
 use crate::scene::{RelaxationMethod, Scene, Spot, SpotRelaxation, SpotSchedule, Tank};
 use crate::simulation::{
@@ -45,8 +45,9 @@ impl Model for SpotModel {
         let spheres = start::place(scene).map_err(BuildError::new)?;
         let floor = floor(scene);
         let places: Vec<Vector> = spheres.position.iter().map(|it| *it - floor).collect();
-        let simulation = Spots::new(parameters, &places, scene.seed).map_err(BuildError::new)?;
-        Ok(Box::new(Drainage {
+        let simulation =
+            SpotSimulation::new(parameters, &places, scene.seed).map_err(BuildError::new)?;
+        Ok(Box::new(SpotDrainage {
             before: simulation.positions(),
             radius: spheres.radius,
             mass: spheres.mass,
@@ -70,7 +71,7 @@ fn floor(scene: &Scene) -> Vector {
     Vector::new(0.0, 0.0, floor.unwrap_or(0.0))
 }
 
-/// What the engine is told of a scene.
+/// The parameters of the engine for a scene.
 fn parameters(scene: &Scene) -> Option<Parameters> {
     let (spot, tank) = (scene.spot.as_ref()?, scene.tank.as_ref()?);
     let diameter = 2.0 * scene.spheres.radius.mean();
@@ -113,9 +114,11 @@ fn parameters(scene: &Scene) -> Option<Parameters> {
     })
 }
 
-fn orifice(tank: &Tank) -> Option<Orifice> {
-    let round = tank.orifice_radius.map(|radius| Orifice::Circle { radius });
-    round.or(tank.slit_width.map(|width| Orifice::Slit {
+fn orifice(tank: &Tank) -> Option<SpotOpening> {
+    let round = tank
+        .orifice_radius
+        .map(|radius| SpotOpening::Circle { radius });
+    round.or(tank.slit_width.map(|width| SpotOpening::Slit {
         half_width: 0.5 * width,
     }))
 }
@@ -132,8 +135,8 @@ fn relaxation(relaxation: &SpotRelaxation) -> Relaxation {
 }
 
 /// A drainage by spots, advanced frame by frame.
-struct Drainage {
-    simulation: Spots,
+struct SpotDrainage {
+    simulation: SpotSimulation,
     /// Centres at the frame before (m).
     before: Vec<Option<Vector>>,
     radius: Vec<f64>,
@@ -145,16 +148,16 @@ struct Drainage {
     milestones: Vec<Milestone>,
 }
 
-/// What a checkpoint holds besides the state of the spots.
+/// The contents of a checkpoint besides the state of the spots.
 #[derive(Serialize, Deserialize)]
-struct State {
+struct DrainageState {
     spots: Vec<u8>,
     before: Vec<Option<Vector>>,
     frame: u64,
     milestones: Vec<Milestone>,
 }
 
-impl Simulation for Drainage {
+impl Simulation for SpotDrainage {
     fn advance_frame(&mut self) -> Result<(), Instability> {
         self.before = self.simulation.positions();
         self.frame += 1;
@@ -190,7 +193,7 @@ impl Simulation for Drainage {
     }
 
     fn look(&mut self, look: &mut dyn FnMut(&dyn Frame)) {
-        let mut columns = Columns::default();
+        let mut columns = SphereColumns::default();
         let now = self.simulation.positions();
         for (number, centre) in now.iter().enumerate() {
             if let Some(centre) = centre {
@@ -217,7 +220,7 @@ impl Simulation for Drainage {
     }
 
     fn save(&self, to: &mut dyn io::Write) -> io::Result<()> {
-        let state = State {
+        let state = DrainageState {
             spots: self.simulation.save().map_err(io::Error::other)?,
             before: self.before.clone(),
             frame: self.frame,
@@ -228,15 +231,15 @@ impl Simulation for Drainage {
     }
 
     fn restore(&mut self, state: &[u8]) -> Result<(), StateError> {
-        let Ok((state, [])) = postcard::take_from_bytes::<State>(state) else {
+        let Ok((state, [])) = postcard::take_from_bytes::<DrainageState>(state) else {
             return Err(StateError::OTHER_FORM);
         };
         if state.before.len() != self.radius.len() {
-            return Err(StateError("it has another number of spheres"));
+            return Err(StateError("its number of spheres differs"));
         }
         let parameters = self.simulation.parameters().clone();
-        self.simulation = Spots::restore(parameters, &state.spots)
-            .map_err(|_| StateError("its spots are of another scene"))?;
+        self.simulation = SpotSimulation::restore(parameters, &state.spots)
+            .map_err(|_| StateError("its spots belong to another scene"))?;
         self.before = state.before;
         self.frame = state.frame;
         self.milestones = state.milestones;
@@ -272,9 +275,9 @@ impl Simulation for Drainage {
     }
 }
 
-impl Drainage {
-    /// What the program reports of a broken guard. A spot stands for the sphere next to it.
-    fn instability(&self, failure: Failure) -> Instability {
+impl SpotDrainage {
+    /// The report of a broken guard. For a spot, it names the sphere next to it.
+    fn instability(&self, failure: SpotFailure) -> Instability {
         let distance = |centre: &Vector| (*centre - failure.place).norm_squared();
         let nearest = || {
             let inside = self.before.iter().enumerate();
@@ -300,7 +303,7 @@ impl Drainage {
 
 /// The spheres that are inside, by columns.
 #[derive(Default)]
-struct Columns {
+struct SphereColumns {
     position: [Vec<f64>; 3],
     velocity: [Vec<f64>; 3],
     radius: Vec<f64>,
@@ -308,7 +311,7 @@ struct Columns {
     number: Vec<u32>,
 }
 
-impl Columns {
+impl SphereColumns {
     fn add(&mut self, number: usize, centre: Vector, velocity: Vector) {
         let both = [(&mut self.position, centre), (&mut self.velocity, velocity)];
         for (columns, it) in both {

@@ -1,18 +1,18 @@
-//! Insertions and moves in the order of time: section 2 of Rycroft, Wong and Bazant (2010). In
-//! their listing the two branches are exchanged.
+//! Insertions and moves in the order of time: section 2 of Rycroft, Wong and Bazant (2010). Their
+//! listing has the two branches swapped.
 
-use super::guard::{Failure, Fault};
+use super::guard::{Fault, SpotFailure};
 use super::parameters::Relaxation;
-use super::simulation::Simulation;
-use super::walk::Spot;
+use super::simulation::SpotSimulation;
+use super::walk::MovingSpot;
 use crate::particles::vector::Vector;
 
-impl Simulation {
+impl SpotSimulation {
     /// Lets all insertions and moves up to a time happen (s).
-    pub(super) fn events_until(&mut self, time: f64) -> Result<(), Failure> {
+    pub(super) fn events_until(&mut self, time: f64) -> Result<(), SpotFailure> {
         loop {
             let global = self.next_global_relaxation();
-            // Written so that a time that is not a number ends it too.
+            // Written so that a NaN time ends it too.
             if !(global.min(self.next_event) <= time) {
                 return Ok(());
             }
@@ -58,7 +58,7 @@ impl Simulation {
     /// Inserts a spot at the centre of the orifice.
     pub(super) fn insert(&mut self) {
         self.counts.inserted += 1;
-        self.spots.push(Spot {
+        self.spots.push(MovingSpot {
             position: Vector::ZERO,
             moves: 0,
         });
@@ -85,7 +85,7 @@ impl Simulation {
         Ok(true)
     }
 
-    /// A random number that decides about the relaxation after a move, where one does.
+    /// A random number that decides about the relaxation after a move, if the method needs one.
     pub(super) fn relaxation_chance(&mut self) -> f64 {
         match self.model.parameters.relaxation {
             Relaxation::AtRandom { .. } => self.random[1].uniform(),

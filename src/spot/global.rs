@@ -2,11 +2,11 @@
 
 use super::arrangement::Arrangement;
 use super::guard::Fault;
-use super::model::Model;
-use super::profile::Part;
+use super::model::SpotRules;
+use super::profile::DrainagePart;
 use super::region::NOWHERE;
-use super::relax::{Eight, Region, displacements};
-use super::simulation::Simulation;
+use super::relax::{EightDisplacements, RelaxedRegion, displacements};
+use super::simulation::SpotSimulation;
 use super::slack::Wear;
 use super::threads::in_parallel;
 use crate::particles::block::ROWS;
@@ -16,15 +16,15 @@ use crate::particles::vector::Vector;
 const TASK: usize = 2048;
 
 /// The spheres of one task: their first slot, centres, and displacements.
-struct Task<'a> {
+struct RelaxationTask<'a> {
     first: usize,
     position: &'a mut [Vector],
-    displacement: &'a mut [Eight],
+    displacement: &'a mut [EightDisplacements],
     result: Result<(), Fault>,
     wear: Wear,
 }
 
-impl Simulation {
+impl SpotSimulation {
     /// Removes overlaps of all spheres at once.
     pub(super) fn relax_all(&mut self) -> Result<(), Fault> {
         self.sort_if_stale()?;
@@ -52,31 +52,31 @@ impl Simulation {
         model.keep_above_floor(&low, position, &mut scratch.left);
         self.counts.global_relaxations += 1;
         self.count_left();
-        self.scratch.clock.end_whole(Part::Relaxation);
+        self.scratch.clock.end_whole(DrainagePart::Relaxation);
         Ok(())
     }
 }
 
-impl Model {
+impl SpotRules {
     /// Computes the displacements that remove overlaps of all spheres.
     pub(crate) fn displacements_of_all(
         &self,
         (arrangement, position): (&Arrangement, &[Vector]),
         longest: f64,
-        displacement: &mut Vec<Eight>,
+        displacement: &mut Vec<EightDisplacements>,
     ) -> Result<(), Fault> {
         let spheres = arrangement.spheres;
-        displacement.resize(spheres.div_ceil(ROWS), Eight::default());
-        let region = Region {
+        displacement.resize(spheres.div_ceil(ROWS), EightDisplacements::default());
+        let region = RelaxedRegion {
             centre: Vector::ZERO,
             radius: f64::INFINITY,
             longest,
         };
         let chunks = displacement.chunks_mut(TASK / ROWS).enumerate();
-        let mut tasks: Vec<Task<'_>> = chunks
-            .map(|(task, displacement)| Task::new(task, &mut [], displacement))
+        let mut tasks: Vec<RelaxationTask<'_>> = chunks
+            .map(|(task, displacement)| RelaxationTask::new(task, &mut [], displacement))
             .collect();
-        in_parallel(&mut tasks, &|task: &mut Task<'_>| {
+        in_parallel(&mut tasks, &|task: &mut RelaxationTask<'_>| {
             let last = (task.first + TASK).min(spheres);
             let mut slots: Vec<u32> = (task.first as u32..last as u32).collect();
             slots.resize(slots.len().next_multiple_of(ROWS), spheres as u32);
@@ -93,20 +93,20 @@ impl Model {
         &self,
         arrangement: &Arrangement,
         position: &mut [Vector],
-        displacement: &mut [Eight],
+        displacement: &mut [EightDisplacements],
         wear: &mut Wear,
     ) {
         let position = position[..arrangement.spheres].chunks_mut(TASK);
         let chunks = position
             .zip(displacement.chunks_mut(TASK / ROWS))
             .enumerate();
-        let mut tasks: Vec<Task<'_>> = chunks
-            .map(|(task, (position, by))| Task {
+        let mut tasks: Vec<RelaxationTask<'_>> = chunks
+            .map(|(task, (position, by))| RelaxationTask {
                 wear: wear.unused(),
-                ..Task::new(task, position, by)
+                ..RelaxationTask::new(task, position, by)
             })
             .collect();
-        in_parallel(&mut tasks, &|task: &mut Task<'_>| {
+        in_parallel(&mut tasks, &|task: &mut RelaxationTask<'_>| {
             for (k, place) in task.position.iter_mut().enumerate() {
                 if place.z > NOWHERE.z {
                     let displacement = task.displacement[k / ROWS].vector(k % ROWS);
@@ -123,8 +123,12 @@ impl Model {
     }
 }
 
-impl<'a> Task<'a> {
-    fn new(task: usize, position: &'a mut [Vector], displacement: &'a mut [Eight]) -> Self {
+impl<'a> RelaxationTask<'a> {
+    fn new(
+        task: usize,
+        position: &'a mut [Vector],
+        displacement: &'a mut [EightDisplacements],
+    ) -> Self {
         Self {
             first: task * TASK,
             position,

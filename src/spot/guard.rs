@@ -6,16 +6,16 @@ use std::fmt;
 /// What ended a simulation, when and where.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{guard} guard at move {moves} (t = {time:.6} s) at {place:?}{}: {detail}", of(*.sphere))]
-pub struct Failure {
+pub struct SpotFailure {
     /// Which guard.
-    pub guard: Guard,
+    pub guard: SpotGuard,
     /// Moves of spots made before it.
     pub moves: u64,
     /// Time (s).
     pub time: f64,
     /// Where: the centre of the sphere, or of the spot (m).
     pub place: Vector,
-    /// Number of the sphere, from 0, if it is one.
+    /// Number of the sphere, from 0, if a sphere broke the guard.
     pub sphere: Option<u32>,
     /// The value that broke the limit, and the limit.
     pub detail: String,
@@ -27,18 +27,18 @@ fn of(sphere: Option<u32>) -> String {
 
 /// What is guarded against.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Guard {
+pub enum SpotGuard {
     /// A displacement is not a number: two centres coincide.
     NotANumber,
     /// A sphere was displaced by more than half a diameter at once.
     Displacement,
-    /// More spheres are near one sphere than can be.
+    /// More spheres are near one sphere than is possible.
     Crowded,
-    /// A spot found no sphere, though there are spheres above it all around.
+    /// A spot found no sphere, although there are spheres above it on all sides.
     EmptySpot,
 }
 
-impl Guard {
+impl SpotGuard {
     /// Name, as in records and tables.
     pub fn name(self) -> &'static str {
         match self {
@@ -50,7 +50,7 @@ impl Guard {
     }
 }
 
-impl fmt::Display for Guard {
+impl fmt::Display for SpotGuard {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.write_str(self.name())
     }
@@ -59,7 +59,7 @@ impl fmt::Display for Guard {
 /// A broken guard where time and count of moves are not known.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Fault {
-    pub(crate) guard: Guard,
+    pub(crate) guard: SpotGuard,
     pub(crate) place: Vector,
     /// Slot of the sphere in the arrays, if it is one.
     pub(crate) slot: Option<u32>,

@@ -41,9 +41,8 @@ impl KinematicFlow {
         (-images..=images).map(image).sum()
     }
 
-    /// Velocity of grains (m/s) along x and upwards, at the place of [`speed`](Self::speed): what
-    /// flows down more widely below flows in from the sides, dvx/dx = dv/dz, so that
-    /// vx = b dv/dx.
+    /// Velocity of grains (m/s) along x and upwards, at the place of [`speed`](Self::speed). By
+    /// continuity dvx/dx = dv/dz, so that vx = b dv/dx.
     pub fn velocity(&self, x: f64, z: f64) -> [f64; 2] {
         let width = (4.0 * self.diffusion * z).sqrt();
         let inward = self.with_images(x, z, |x| self.diffusion * self.free_slope(x, width));
@@ -66,8 +65,8 @@ impl KinematicFlow {
         self.flux / (4.0 * a) * edges
     }
 
-    /// Derivative of the speed without walls along x (1/s), of a profile that is
-    /// `width` = sqrt(4 b z) wide.
+    /// Derivative of the speed without walls along x (1/s), for a profile of width `width` = sqrt(4
+    /// b z).
     fn free_slope(&self, x: f64, width: f64) -> f64 {
         let gauss = |x: f64| libm::exp(-(x / width) * (x / width)) / (PI.sqrt() * width);
         let a = self.half_opening;

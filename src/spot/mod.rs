@@ -1,8 +1,8 @@
 //! Drainage by spots: the model of Rycroft, Wong and Bazant, Powder Technology 200 (2010) 1-11.
 //!
 //! Spots of free volume rise from the orifice by a random walk. Each move of a spot displaces the
-//! spheres in its range a little the other way, and then removes their overlaps. There are no
-//! forces and no velocities.
+//! spheres in its range a little in the opposite direction, and then removes their overlaps. There
+//! are no forces and no velocities.
 
 mod arrangement;
 mod batch;
@@ -42,10 +42,10 @@ mod worker;
 
 pub use check::ParameterError;
 pub use drainage::SpotModel;
-pub use guard::{Failure, Guard};
+pub use guard::{SpotFailure, SpotGuard};
 pub use parameters::{
-    Influence, Orifice, Parameters, Relaxation, SPOT_VOLUME_RATIO, Schedule, Walk,
+    Influence, Parameters, Relaxation, SPOT_VOLUME_RATIO, Schedule, SpotOpening, Walk,
 };
-pub use simulation::Simulation;
-pub use state::{Counts, StartError};
-pub use walk::Spot;
+pub use simulation::SpotSimulation;
+pub use state::{SpotCounts, SpotError};
+pub use walk::MovingSpot;

@@ -1,11 +1,11 @@
-//! The parameters as the loops need them, and what a move of a spot does.
+//! The parameters in the form that loops need, and the effect of a spot's move.
 
 use super::arrangement::{Arrangement, Sorting};
-use super::guard::{Fault, Guard};
+use super::guard::{Fault, SpotGuard};
 use super::parameters::{Influence, Parameters};
 use super::profile::Clock;
 use super::region::{NOWHERE, collect};
-use super::relax::{Eight, Region, displacements};
+use super::relax::{EightDisplacements, RelaxedRegion, displacements};
 use super::silo::Silo;
 use super::slack::{Slack, Wear};
 use crate::particles::block::ROWS;
@@ -15,7 +15,7 @@ use std::ops::Range;
 
 /// What does not change during a simulation.
 #[derive(Clone, Debug)]
-pub(crate) struct Model {
+pub(crate) struct SpotRules {
     pub(crate) parameters: Parameters,
     pub(crate) silo: Silo,
     pub(crate) level: Level,
@@ -26,7 +26,7 @@ pub(crate) struct Model {
     pub(crate) relaxation_strength: f64,
 }
 
-/// Arrays that moves use again and again, and what they leave behind.
+/// Buffers of moves, and their results.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Scratch {
     pub(crate) ranges: Vec<Range<u32>>,
@@ -34,15 +34,15 @@ pub(crate) struct Scratch {
     pub(crate) moved: Vec<u32>,
     /// Slots of the spheres that were relaxed.
     pub(crate) relaxed: Vec<u32>,
-    pub(crate) displacement: Vec<Eight>,
+    pub(crate) displacement: Vec<EightDisplacements>,
     /// Slots and last places of the spheres that have left through the orifice.
     pub(crate) left: Vec<(u32, Vector)>,
     pub(crate) wear: Wear,
-    /// What its parts take, if that is asked for.
+    /// Times of its parts, if requested.
     pub(crate) clock: Clock,
 }
 
-impl Model {
+impl SpotRules {
     pub(crate) fn new(parameters: Parameters) -> Self {
         Self {
             silo: Silo::new(&parameters),
@@ -64,7 +64,7 @@ impl Model {
     }
 
     /// The basic step of a spot that moves by `step` around `centre`, the middle of its way:
-    /// spheres nearer than r_s to `centre` are displaced the other way.
+    /// spheres nearer than r_s to `centre` are displaced in the opposite direction.
     pub(crate) fn spot(
         &self,
         arrangement: &Arrangement,
@@ -131,8 +131,8 @@ impl Model {
         }
     }
 
-    /// How many of a spot and its images in the walls are nearer than r_s to a sphere that is
-    /// nearer than this to the spot itself.
+    /// How many of a spot and its images in the walls are within r_s of a sphere that is within r_s
+    /// of the spot itself.
     fn images(&self, sphere: Vector, spot: Vector) -> f64 {
         let images = |half: f64, sphere: f64, spot: f64| {
             [spot, 2.0 * half - spot, -2.0 * half - spot].map(|it| (sphere - it) * (sphere - it))
@@ -154,7 +154,7 @@ impl Model {
         centre: Vector,
     ) -> Result<(), Fault> {
         let radius = self.parameters.relaxation_radius;
-        let region = Region {
+        let region = RelaxedRegion {
             centre,
             radius,
             longest: 0.5 * self.diameter,
@@ -171,7 +171,7 @@ impl Model {
             collect(simd, position, ranges, (centre, radius), relaxed);
             inside = relaxed.len();
             relaxed.resize(inside.next_multiple_of(ROWS), arrangement.spheres as u32);
-            displacement.resize(relaxed.len() / ROWS, Eight::default());
+            displacement.resize(relaxed.len() / ROWS, EightDisplacements::default());
             let of = (&relaxed[..], &mut displacement[..]);
             displacements(simd, (self, arrangement), position, region, of)
         })?;
@@ -199,7 +199,7 @@ impl Model {
         scratch.wear = wear;
     }
 
-    /// Pushes spheres off the floor and the orifice's edge, and takes those away that have left.
+    /// Pushes spheres off the floor and the orifice's edge, and removes those that have left.
     pub(crate) fn keep_above_floor(
         &self,
         slots: &[u32],
@@ -235,7 +235,7 @@ impl Model {
         }
         let detail = format!("the spot finds no sphere below a surface at {surface} m");
         Err(Fault {
-            guard: Guard::EmptySpot,
+            guard: SpotGuard::EmptySpot,
             place: centre,
             slot: None,
             detail,
@@ -246,7 +246,7 @@ impl Model {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::spot::{Simulation, samples};
+    use crate::spot::{SpotSimulation, samples};
 
     /// Displacement of each sphere by a spot, and how many are moved.
     fn displaced(
@@ -281,7 +281,7 @@ mod tests {
             assert!((by.z - expected).abs() < 1e-12 && by.x == 0.0, "{by:?}");
         }
         assert_eq!(moved, count);
-        // 84 spheres at the packing fraction .6, 90 at that of the start.
+        // 84 spheres at the packing fraction .6, 90 at the initial one.
         assert!((80..100).contains(&count), "{count}");
     }
 
@@ -316,7 +316,7 @@ mod tests {
 
     /// Displacement of spheres at these places by one relaxation about a centre.
     fn relaxed(places: &[Vector], centre: Vector) -> Vec<Vector> {
-        let simulation = Simulation::new(samples::parameters(), places, 1).expect("a start");
+        let simulation = SpotSimulation::new(samples::parameters(), places, 1).expect("a start");
         let arrangement = &simulation.arrangement;
         let mut position = simulation.position.clone();
         let mut scratch = Scratch::default();
@@ -366,7 +366,7 @@ mod tests {
                 .check_empty(&simulation.arrangement, centre)
         };
         let fault = check(1.0, 5.0).expect_err("spheres lie above it");
-        assert_eq!(fault.guard, Guard::EmptySpot);
+        assert_eq!(fault.guard, SpotGuard::EmptySpot);
         assert_eq!(fault.place, Vector::new(1.0, 0.0, 5.0));
         assert!(check(1.0, 20.0).is_ok(), "above the bed");
         assert!(check(8.0, 5.0).is_ok(), "behind a wall");
@@ -374,7 +374,7 @@ mod tests {
 
     #[test]
     fn the_reflected_part_of_a_spot_counts_once_more_at_each_wall() {
-        let model = Model::new(Parameters::figure_2(1.0));
+        let model = SpotRules::new(Parameters::figure_2(1.0));
         let images = |sphere: [f64; 3], spot: [f64; 3]| {
             model.images(Vector::from(sphere), Vector::from(spot))
         };

@@ -2,21 +2,21 @@
 
 use super::arrangement::Arrangement;
 use super::guard::Fault;
-use super::model::{Model, Scratch};
+use super::model::{Scratch, SpotRules};
 use super::parameters::Relaxation;
-use super::profile::Part;
-use super::walk::Spot;
+use super::profile::DrainagePart;
+use super::walk::MovingSpot;
 use crate::particles::vector::Vector;
 
-impl Model {
+impl SpotRules {
     /// Moves a spot and the spheres in its range, and relaxes these if it is time to. Random
-    /// numbers 0 <= u < 1 choose the way, and decide about the relaxation. Returns whether there
-    /// was one; None if the spot is to be removed instead.
+    /// numbers 0 <= u < 1 choose the way and decide about the relaxation. Returns whether there was
+    /// a relaxation; `None` if the spot is to be removed instead.
     pub(crate) fn make_move(
         &self,
         (arrangement, position): (&Arrangement, &mut [Vector]),
         scratch: &mut Scratch,
-        spot: &mut Spot,
+        spot: &mut MovingSpot,
         [way, chance]: [f64; 2],
     ) -> Result<Option<bool>, Fault> {
         scratch.clock.begin_move();
@@ -43,10 +43,10 @@ impl Model {
             Relaxation::AtRandom { ratio } => chance * (ratio as f64) < 1.0,
             Relaxation::Counted { ratio } => u64::from(spot.moves).is_multiple_of(ratio),
         };
-        scratch.clock.mark(Part::Spots);
+        scratch.clock.mark(DrainagePart::Spots);
         if relaxes {
             self.relax(arrangement, position, scratch, centre)?;
-            scratch.clock.mark(Part::Relaxation);
+            scratch.clock.mark(DrainagePart::Relaxation);
         }
         Ok(Some(relaxes))
     }

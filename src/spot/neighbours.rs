@@ -1,39 +1,38 @@
-//! Which spheres are near each sphere, so that only these are looked at when overlaps are removed.
+//! Which spheres are near each sphere, so that the removal of overlaps tests only these.
 
-use super::cells::Cells;
-use super::guard::{Fault, Guard};
+use super::cells::SphereCells;
+use super::guard::{Fault, SpotGuard};
 use super::threads::in_parallel;
 use crate::particles::block::ROWS;
 use crate::particles::vector::Vector;
 use fearless_simd::{Level, Simd, SimdBase, SimdMask, f64x8, mask32x8, u32x8};
 use std::ops::Range;
 
-/// Most neighbours of one sphere. Twelve spheres touch one, and some 50 fit into twice its radius
-/// if they overlap as much as the paper's worst packing.
+/// Largest number of neighbours of one sphere. Twelve spheres touch one, and about 50 fit into
+/// twice its radius if they overlap as much as in the paper's worst packing.
 const MOST: usize = 64;
 
-/// Least length of the lists: no more in a dense packing.
+/// Least length of the lists, enough for a dense packing.
 const LEAST: usize = 16;
 
 /// Spheres whose lists one task makes.
 const TASK: usize = 1024;
 
 /// Number of a task, and the numbers of neighbours and the lists that it fills.
-type Task<'a> = (usize, (&'a mut [u32], &'a mut [u32]));
+type ListTask<'a> = (usize, (&'a mut [u32], &'a mut [u32]));
 
-/// Lists of neighbours, all of the same length, filled up with the slot of a sphere that is
-/// nowhere.
+/// Lists of neighbours, all of the same length, padded with the slot of a dummy sphere far away.
 #[derive(Clone, Debug)]
-pub(crate) struct Neighbours {
+pub(crate) struct NeighbourLists {
     /// Length of each list.
     pub(crate) width: usize,
-    /// Number of neighbours of each sphere, and of the sphere that is nowhere.
+    /// Number of neighbours of each sphere, and of the dummy.
     pub(crate) count: Vec<u32>,
     /// The lists, one after the other.
     pub(crate) slot: Vec<u32>,
 }
 
-impl Neighbours {
+impl NeighbourLists {
     pub(crate) fn new() -> Self {
         Self {
             width: LEAST,
@@ -42,12 +41,12 @@ impl Neighbours {
         }
     }
 
-    /// Lists the spheres nearer to each sphere than its reach (m). The positions, which are filled
-    /// up for vectors, are sorted by cell.
+    /// Lists the spheres nearer to each sphere than its reach (m). The positions are sorted by cell
+    /// and padded for vector instructions.
     pub(crate) fn find(
         &mut self,
         level: Level,
-        cells: &Cells,
+        cells: &SphereCells,
         position: &[Vector],
         reach: &[f64],
     ) -> Result<(), Fault> {
@@ -62,7 +61,7 @@ impl Neighbours {
             let counts = self.count[..spheres].chunks_mut(TASK);
             let lists = self.slot[..spheres * width].chunks_mut(TASK * width);
             let mut tasks: Vec<_> = counts.zip(lists).enumerate().collect();
-            in_parallel(&mut tasks, &|(task, (count, slot)): &mut Task<'_>| {
+            in_parallel(&mut tasks, &|(task, (count, slot)): &mut ListTask<'_>| {
                 let first = *task * TASK;
                 fearless_simd::dispatch!(level, simd => {
                     columns.list(simd, cells, (first, &reach[first..]), (&mut *count, &mut *slot));
@@ -84,7 +83,7 @@ impl Neighbours {
         let slot = self.count.iter().position(crowded).unwrap_or(0);
         let (count, reach) = (self.count[slot], reach[slot]);
         Fault {
-            guard: Guard::Crowded,
+            guard: SpotGuard::Crowded,
             place: position[slot],
             slot: Some(slot as u32),
             detail: format!("{count} spheres within {reach} m, more than {MOST}"),
@@ -109,7 +108,7 @@ impl Coordinates {
     fn list<S: Simd>(
         &self,
         simd: S,
-        cells: &Cells,
+        cells: &SphereCells,
         (first, reach): (usize, &[f64]),
         (count, slot): (&mut [u32], &mut [u32]),
     ) {
@@ -132,7 +131,7 @@ impl Coordinates {
         }
     }
 
-    /// The neighbours of a sphere in some ranges. Returns how many there are; of too many, only
+    /// The neighbours of a sphere in some ranges. Returns their number; if there are too many, only
     /// the first are kept.
     #[inline(always)]
     fn near<S: Simd>(

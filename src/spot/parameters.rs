@@ -1,10 +1,10 @@
-//! What a spot simulation is told: the silo, the spots, and how they move the spheres.
+//! Parameters of a spot simulation: the silo, the spots, and how they move the spheres.
 
 use serde::{Deserialize, Serialize};
 
 /// Parameters of a simulation by spots. Lengths in metres, times in seconds.
 ///
-/// Names and values of [`Parameters::figure_2`] are those of Rycroft, Wong and Bazant, Powder
+/// Names, and the values of [`Parameters::figure_2`], follow Rycroft, Wong and Bazant, Powder
 /// Technology 200 (2010), figure 2 and section 2.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Parameters {
@@ -13,14 +13,14 @@ pub struct Parameters {
     /// Half of the depth of the box along y (m).
     pub half_depth: f64,
     /// The opening in the floor z = 0.
-    pub orifice: Orifice,
+    pub orifice: SpotOpening,
     /// Diameter d of the spheres (m).
     pub diameter: f64,
     /// Spots move spheres whose centres are nearer than this radius r_s (m).
     pub spot_radius: f64,
     /// Spheres nearer than this radius r_e are relaxed (m).
     pub relaxation_radius: f64,
-    /// Displacement of a spot over that of the spheres it moves, w.
+    /// Displacement of a spot over the displacement of the spheres it moves, w.
     pub displacement_ratio: f64,
     /// Steps of a spot along x (either way), y (either way) and z (upwards) (m).
     pub step: [f64; 3],
@@ -28,7 +28,7 @@ pub struct Parameters {
     pub insertion_rate: f64,
     /// Moves of each spot per time, mu (1/s).
     pub move_rate: f64,
-    /// Distance d_w that spots keep from walls (m); if negative, spots enter walls that far.
+    /// Distance d_w that spots keep from walls (m); a negative value lets them enter walls.
     pub wall_distance: f64,
     /// Share alpha of an overlap that one relaxation removes.
     pub relaxation_strength: f64,
@@ -48,7 +48,7 @@ pub struct Parameters {
 
 /// The opening in the floor, around the origin.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub enum Orifice {
+pub enum SpotOpening {
     /// A circle of this radius (m).
     Circle {
         /// (m)
@@ -69,7 +69,7 @@ pub enum Schedule {
     /// All spots move once in each step of 1/mu, in a new random order each time. A Poisson number
     /// of mean lambda/mu is inserted at the start of the step.
     StepsInRandomOrder,
-    /// The same, where the spot that was inserted last moves first.
+    /// The same, but the spot that was inserted last moves first.
     StepsNewestFirst,
 }
 
@@ -90,7 +90,7 @@ pub enum Relaxation {
         /// Ratio k.
         ratio: u64,
     },
-    /// Method 3: of all spheres, every k/mu of time.
+    /// Method 3: for all spheres, every k/mu of time.
     Global {
         /// Ratio k.
         ratio: u64,
@@ -116,12 +116,12 @@ pub enum Walk {
 pub enum Influence {
     /// By -v/w.
     Fixed,
-    /// By -v V_s / (p V_p), where V_s is the volume that a spot carries, V_p that of a sphere, and
-    /// p the number of spheres it moves (section 3 of the paper).
+    /// By -v V_s / (p V_p), where V_s is the volume that a spot carries, V_p the volume of a
+    /// sphere, and p the number of spheres it moves (section 3 of the paper).
     Weighted {
         /// V_s / V_p.
         volume_ratio: f64,
-        /// If p is smaller, this number is taken for p.
+        /// Lower bound of p.
         least_count: f64,
         /// Below this height the displacement is -v/w (m).
         above: f64,
@@ -139,7 +139,7 @@ impl Parameters {
         Self {
             half_width: 25.0 * d,
             half_depth: 4.0 * d,
-            orifice: Orifice::Circle { radius: 4.0 * d },
+            orifice: SpotOpening::Circle { radius: 4.0 * d },
             diameter: d,
             spot_radius: 2.6 * d,
             relaxation_radius: 3.6 * d,

@@ -1,15 +1,15 @@
-//! What the parts of a drainage by spots take, measured on request.
+//! Times of the parts of a drainage by spots, measured on request.
 //!
-//! Moves are many and short: of one in 256 it is measured how it divides into the way of the spot
-//! and the relaxation around it. What comes seldom and takes long, to relax all spheres or to sort
-//! them, is measured each time.
+//! Moves are many and short: one in 256 is measured, divided into the motion of the spot and the
+//! relaxation around it. Rare and long operations, relaxing or sorting all spheres, are measured
+//! each time.
 
 use crate::simulation::{PartOfStep, Profile};
 
 /// A part of a drainage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Part {
-    /// Spots choose their steps, and move spheres the other way.
+pub(super) enum DrainagePart {
+    /// Spots choose their steps and move spheres in the opposite direction.
     Spots,
     /// Overlaps are removed.
     Relaxation,
@@ -17,7 +17,7 @@ pub(super) enum Part {
     Order,
 }
 
-impl Part {
+impl DrainagePart {
     const ALL: [Self; 3] = [Self::Spots, Self::Relaxation, Self::Order];
 
     fn name(self) -> &'static str {
@@ -29,23 +29,23 @@ impl Part {
     }
 }
 
-/// The parts of a drainage that relaxes or does not.
+/// The parts of a drainage, with or without relaxation.
 pub(super) fn parts(relaxes: bool) -> Vec<PartOfStep> {
-    let part = |part: Part| PartOfStep {
+    let part = |part: DrainagePart| PartOfStep {
         name: part.name(),
-        is_present: part != Part::Relaxation || relaxes,
-        // What is done once in a frame counts as theirs.
-        is_between_steps: part == Part::Spots,
+        is_present: part != DrainagePart::Relaxation || relaxes,
+        // Work done once per frame counts as theirs.
+        is_between_steps: part == DrainagePart::Spots,
     };
-    Part::ALL.map(part).to_vec()
+    DrainagePart::ALL.map(part).to_vec()
 }
 
 /// A profile, if there is one.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Clock(Option<Box<Measured>>);
+pub(crate) struct Clock(Option<Box<MeasuredMoves>>);
 
 #[derive(Clone, Debug)]
-struct Measured {
+struct MeasuredMoves {
     profile: Profile,
     /// Moves begun so far.
     begun: u64,
@@ -54,8 +54,8 @@ struct Measured {
 impl Clock {
     /// One that measures from now on.
     pub(super) fn started() -> Self {
-        Self(Some(Box::new(Measured {
-            profile: Profile::new(Part::ALL.len(), Part::Spots as usize),
+        Self(Some(Box::new(MeasuredMoves {
+            profile: Profile::new(DrainagePart::ALL.len(), DrainagePart::Spots as usize),
             begun: 0,
         })))
     }
@@ -83,7 +83,7 @@ impl Clock {
 
     /// Ends a part of a move.
     #[inline(always)]
-    pub(super) fn mark(&mut self, part: Part) {
+    pub(super) fn mark(&mut self, part: DrainagePart) {
         self.each(|it| it.profile.mark(part as usize));
     }
 
@@ -93,18 +93,18 @@ impl Clock {
         self.each(|it| it.profile.count(1));
     }
 
-    /// Begins what is measured each time.
+    /// Begins an operation that is measured each time.
     pub(super) fn begin_whole(&mut self) {
         self.each(|it| it.profile.begin_whole());
     }
 
-    /// Ends it: it was all of one part.
-    pub(super) fn end_whole(&mut self, part: Part) {
+    /// Ends it; all of its time belongs to one part.
+    pub(super) fn end_whole(&mut self, part: DrainagePart) {
         self.each(|it| it.profile.end_whole(part as usize));
     }
 
     #[inline(always)]
-    fn each(&mut self, then: impl FnOnce(&mut Measured)) {
+    fn each(&mut self, then: impl FnOnce(&mut MeasuredMoves)) {
         if let Some(measured) = &mut self.0 {
             then(measured);
         }

@@ -1,16 +1,16 @@
-//! Streams of random numbers that are named, and can be resumed.
+//! Named streams of random numbers that can be resumed.
 
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
 /// A stream of random numbers. Streams of different names or seeds are independent.
 #[derive(Clone, Debug)]
-pub(crate) struct Stream {
+pub(crate) struct RandomStream {
     generator: Pcg64,
     drawn: u64,
 }
 
-impl Stream {
+impl RandomStream {
     /// The stream of this name.
     pub(crate) fn new(name: &str, seed: u64) -> Self {
         let mut hasher = blake3::Hasher::new();
@@ -70,24 +70,27 @@ impl Stream {
 
 #[cfg(test)]
 mod tests {
-    use super::Stream;
+    use super::RandomStream;
 
     #[test]
     fn a_resumed_stream_goes_on() {
-        let mut stream = Stream::new("walk", 7);
+        let mut stream = RandomStream::new("walk", 7);
         (0..10).for_each(|_| assert!(stream.exponential() >= 0.0));
-        let mut resumed = Stream::resumed("walk", 7, stream.drawn());
+        let mut resumed = RandomStream::resumed("walk", 7, stream.drawn());
         assert_eq!(stream.bits(), resumed.bits());
-        assert_ne!(Stream::new("walk", 7).bits(), Stream::new("walk", 8).bits());
         assert_ne!(
-            Stream::new("walk", 7).bits(),
-            Stream::new("other", 7).bits()
+            RandomStream::new("walk", 7).bits(),
+            RandomStream::new("walk", 8).bits()
+        );
+        assert_ne!(
+            RandomStream::new("walk", 7).bits(),
+            RandomStream::new("other", 7).bits()
         );
     }
 
     #[test]
     fn poisson_numbers_have_equal_mean_and_variance() {
-        let mut stream = Stream::new("poisson", 1);
+        let mut stream = RandomStream::new("poisson", 1);
         let numbers: Vec<f64> = (0..20_000).map(|_| stream.poisson(13.4) as f64).collect();
         let mean = numbers.iter().sum::<f64>() / 2e4;
         let variance = numbers

@@ -5,12 +5,12 @@ use crate::particles::vector::Vector;
 use fearless_simd::{Simd, SimdBase, SimdMask, mask32x8, u32x8};
 use std::ops::Range;
 
-/// Place of what is not there: no region and no sphere is near it (m). It fills up the arrays to
-/// whole vectors, and takes the place of spheres that have left.
+/// Place (m) far from all regions and spheres. It pads arrays to whole vectors and replaces spheres
+/// that have left.
 pub(crate) const NOWHERE: Vector = Vector::new(0.0, 0.0, -1e100);
 
 /// Collects the slots of the spheres in some ranges that are nearer to a centre than a radius (m),
-/// in order. The positions are filled up with `ROWS` vectors at least.
+/// in order. The positions are padded with at least `ROWS` vectors.
 #[inline(always)]
 pub(crate) fn collect<S: Simd>(
     simd: S,

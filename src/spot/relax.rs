@@ -1,8 +1,8 @@
 //! Removal of overlaps: the elastic relaxation of Rycroft, Wong and Bazant (2010), section 2.
 
 use super::arrangement::Arrangement;
-use super::guard::{Fault, Guard};
-use super::model::Model;
+use super::guard::{Fault, SpotGuard};
+use super::model::SpotRules;
 use super::region::NOWHERE;
 use crate::particles::block::{ROWS, turned};
 use crate::particles::vector::Vector;
@@ -11,9 +11,9 @@ use fearless_simd::{Select, Simd, SimdBase, SimdFloat, SimdMask, f64x8, mask64x8
 /// Displacements of eight spheres, one array per axis (m).
 #[derive(Clone, Copy, Debug, Default)]
 #[repr(align(64))]
-pub(crate) struct Eight([[f64; ROWS]; 3]);
+pub(crate) struct EightDisplacements([[f64; ROWS]; 3]);
 
-impl Eight {
+impl EightDisplacements {
     #[inline(always)]
     pub(crate) fn vector(&self, lane: usize) -> Vector {
         let [x, y, z] = &self.0;
@@ -23,7 +23,7 @@ impl Eight {
 
 /// Spheres that are relaxed together.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Region {
+pub(crate) struct RelaxedRegion {
     pub(crate) centre: Vector,
     /// Spheres farther from the centre than this are held (m).
     pub(crate) radius: f64,
@@ -31,8 +31,8 @@ pub(crate) struct Region {
     pub(crate) longest: f64,
 }
 
-/// Computes the displacements that remove overlaps of the spheres in `inside`. Slots are filled up
-/// to whole groups of eight by that of a sphere that is nowhere.
+/// Computes the displacements that remove overlaps of the spheres in `inside`. Slots are padded to
+/// whole groups of eight with the slot of the dummy sphere.
 ///
 /// Every pair nearer than the diameter d overlaps by delta = d - r. Either sphere is displaced by
 /// alpha delta/2 away from the other, or by alpha delta if the other one is held.
@@ -41,10 +41,10 @@ pub(crate) struct Region {
 #[inline(always)]
 pub(crate) fn displacements<S: Simd>(
     simd: S,
-    (model, arrangement): (&Model, &Arrangement),
+    (model, arrangement): (&SpotRules, &Arrangement),
     position: &[Vector],
-    region: Region,
-    (inside, displacement): (&[u32], &mut [Eight]),
+    region: RelaxedRegion,
+    (inside, displacement): (&[u32], &mut [EightDisplacements]),
 ) -> Result<(), Fault> {
     let limit = region.longest * region.longest;
     let groups = inside.chunks_exact(ROWS).zip(displacement.iter_mut());
@@ -67,10 +67,10 @@ pub(crate) fn displacements<S: Simd>(
 #[inline(always)]
 fn displaced<S: Simd>(
     simd: S,
-    model: &Model,
+    model: &SpotRules,
     arrangement: &Arrangement,
     position: &[Vector],
-    region: Region,
+    region: RelaxedRegion,
     slots: &[u32],
 ) -> [f64x8<S>; 3] {
     let neighbours = &arrangement.neighbours;
@@ -120,7 +120,12 @@ fn displaced<S: Simd>(
 }
 
 #[cold]
-fn fault(position: &[Vector], inside: &[u32], displacement: &[Eight], limit: f64) -> Fault {
+fn fault(
+    position: &[Vector],
+    inside: &[u32],
+    displacement: &[EightDisplacements],
+    limit: f64,
+) -> Fault {
     let vectors = displacement.iter();
     let vectors = vectors.flat_map(|eight| (0..ROWS).map(|lane| eight.vector(lane)));
     let broken = inside.iter().zip(vectors);
@@ -129,9 +134,9 @@ fn fault(position: &[Vector], inside: &[u32], displacement: &[Eight], limit: f64
         .next()
         .map_or((0, f64::NAN), |(slot, it)| (*slot, it.norm()));
     let guard = if length.is_nan() {
-        Guard::NotANumber
+        SpotGuard::NotANumber
     } else {
-        Guard::Displacement
+        SpotGuard::Displacement
     };
     let most = limit.sqrt();
     Fault {

@@ -1,8 +1,8 @@
 //! A small silo for tests.
 
 use super::packing::random_packing;
-use super::parameters::{Orifice, Parameters};
-use super::simulation::Simulation;
+use super::parameters::{Parameters, SpotOpening};
+use super::simulation::SpotSimulation;
 use crate::particles::vector::Vector;
 use std::sync::OnceLock;
 
@@ -10,7 +10,7 @@ use std::sync::OnceLock;
 pub(super) fn parameters() -> Parameters {
     Parameters {
         half_width: 7.0,
-        orifice: Orifice::Circle { radius: 3.0 },
+        orifice: SpotOpening::Circle { radius: 3.0 },
         ..Parameters::figure_2(1.0)
     }
 }
@@ -22,14 +22,14 @@ pub(super) fn packing() -> &'static [Vector] {
 }
 
 /// A simulation that starts from this packing.
-pub(super) fn simulation(change: impl FnOnce(&mut Parameters)) -> Simulation {
+pub(super) fn simulation(change: impl FnOnce(&mut Parameters)) -> SpotSimulation {
     let mut parameters = parameters();
     change(&mut parameters);
-    Simulation::new(parameters, packing(), 1).expect("a start")
+    SpotSimulation::new(parameters, packing(), 1).expect("a start")
 }
 
 /// Sum of the overlaps over all pairs, each counted once, per sphere and diameter.
-pub(super) fn badness(simulation: &Simulation) -> f64 {
+pub(super) fn badness(simulation: &SpotSimulation) -> f64 {
     let centres: Vec<Vector> = simulation.positions().into_iter().flatten().collect();
     let mut sum = 0.0;
     for (second, centre) in centres.iter().enumerate() {

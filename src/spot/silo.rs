@@ -1,6 +1,6 @@
 //! Where spheres can be: between the walls, above the floor, and in the orifice.
 
-use super::parameters::{Orifice, Parameters};
+use super::parameters::{Parameters, SpotOpening};
 use crate::particles::vector::Vector;
 
 /// The box with its opening, for spheres of one diameter.
@@ -10,7 +10,7 @@ pub(crate) struct Silo {
     room: [f64; 2],
     /// Radius of the spheres (m).
     radius: f64,
-    orifice: Orifice,
+    orifice: SpotOpening,
 }
 
 impl Silo {
@@ -52,11 +52,11 @@ impl Silo {
             return Some(centre);
         }
         let (opening, outward) = match self.orifice {
-            Orifice::Circle { radius } => {
+            SpotOpening::Circle { radius } => {
                 let distance = (centre.x * centre.x + centre.y * centre.y).sqrt();
                 (radius, distance)
             }
-            Orifice::Slit { half_width } => (half_width, centre.x.abs()),
+            SpotOpening::Slit { half_width } => (half_width, centre.x.abs()),
         };
         let inward = opening - outward;
         if inward <= 0.0 {
@@ -73,8 +73,8 @@ impl Silo {
         let scale = (opening - inward * stretch) / outward;
         let z = centre.z * stretch;
         Some(match self.orifice {
-            Orifice::Circle { .. } => Vector::new(centre.x * scale, centre.y * scale, z),
-            Orifice::Slit { .. } => Vector::new(centre.x * scale, centre.y, z),
+            SpotOpening::Circle { .. } => Vector::new(centre.x * scale, centre.y * scale, z),
+            SpotOpening::Slit { .. } => Vector::new(centre.x * scale, centre.y, z),
         })
     }
 }
@@ -101,7 +101,7 @@ mod tests {
     fn the_edge_pushes_a_sphere_off_to_its_radius() {
         let circle = Silo::new(&Parameters::figure_2(1.0));
         let slit = Silo::new(&Parameters {
-            orifice: Orifice::Slit { half_width: 4.0 },
+            orifice: SpotOpening::Slit { half_width: 4.0 },
             ..Parameters::figure_2(1.0)
         });
         let kept = circle

@@ -1,40 +1,40 @@
 //! A simulation of drainage by spots.
 
 use super::arrangement::Arrangement;
-use super::guard::{Failure, Fault};
-use super::model::{Model, Scratch};
-use super::neighbours::Neighbours;
+use super::guard::{Fault, SpotFailure};
+use super::model::{Scratch, SpotRules};
+use super::neighbours::NeighbourLists;
 use super::parameters::{Parameters, Schedule};
-use super::profile::{Clock, Part};
-use super::random::Stream;
+use super::profile::{Clock, DrainagePart};
+use super::random::RandomStream;
 use super::region::NOWHERE;
 use super::slack::Wear;
-use super::state::{Counts, StartError, State};
+use super::state::{SpotCounts, SpotError, SpotState};
 use super::threads::Workers;
-use super::walk::Spot;
+use super::walk::MovingSpot;
 use crate::particles::block::ROWS;
 use crate::particles::vector::Vector;
 use crate::scene::STICKING_OUT;
 use crate::simulation::Profile;
 use rayon::ThreadPoolBuildError;
 
-/// Names of the streams of random numbers: of spots, and of relaxations.
+/// Names of the streams of random numbers for spots and for relaxations.
 pub(super) const STREAMS: [&str; 2] = ["spot walk", "spot relaxation"];
 
 /// A simulation of drainage by spots.
 ///
-/// The same parameters, positions and seed give the same bits, whatever the number of threads,
-/// whatever the times at which it is looked at, and whether it was saved and restored in between.
+/// The same parameters, positions and seed give the same bits, independent of the number of
+/// threads, of the times at which it is observed, and of saving and restoring in between.
 #[derive(Debug)]
-pub struct Simulation {
-    pub(super) model: Model,
+pub struct SpotSimulation {
+    pub(super) model: SpotRules,
     pub(super) arrangement: Arrangement,
-    /// Centres in order of the arrangement (m), filled up for vectors.
+    /// Centres in order of the arrangement (m), padded for vector instructions.
     pub(super) position: Vec<Vector>,
-    pub(super) spots: Vec<Spot>,
+    pub(super) spots: Vec<MovingSpot>,
     pub(super) scratch: Scratch,
-    pub(super) random: [Stream; 2],
-    pub(super) counts: Counts,
+    pub(super) random: [RandomStream; 2],
+    pub(super) counts: SpotCounts,
     pub(super) next_event: f64,
     pub(super) steps: u64,
     /// Number of spots now inside that move in the lower part of the next step.
@@ -45,25 +45,25 @@ pub struct Simulation {
     left: Vec<Option<Vector>>,
 }
 
-impl Simulation {
+impl SpotSimulation {
     /// A simulation that starts from these centres (m).
     ///
     /// # Errors
     ///
-    /// If a parameter cannot be, or if spheres are outside of the box or crowded.
-    pub fn new(parameters: Parameters, position: &[Vector], seed: u64) -> Result<Self, StartError> {
+    /// If a parameter is invalid, or if spheres are outside the box or crowded.
+    pub fn new(parameters: Parameters, position: &[Vector], seed: u64) -> Result<Self, SpotError> {
         parameters.check()?;
         check_positions(&parameters, position)?;
-        let model = Model::new(parameters);
-        let mut random = STREAMS.map(|name| Stream::new(name, seed));
+        let model = SpotRules::new(parameters);
+        let mut random = STREAMS.map(|name| RandomStream::new(name, seed));
         let next_event = random[0].exponential() / model.parameters.insertion_rate;
         let mut sorted = position.to_vec();
         let ids = (0..position.len() as u32).collect();
         let spheres = (&mut sorted, ids);
-        let arrangement = Arrangement::sorted(model.sorting(), spheres, Neighbours::new());
-        let counts = Counts::default();
+        let arrangement = Arrangement::sorted(model.sorting(), spheres, NeighbourLists::new());
+        let counts = SpotCounts::default();
         let arrangement = arrangement
-            .map_err(|fault| StartError::Failure(Box::new(failure(fault, None, &counts, 0.0))))?;
+            .map_err(|fault| SpotError::Failure(Box::new(failure(fault, None, &counts, 0.0))))?;
         Ok(Self {
             model,
             arrangement,
@@ -86,8 +86,8 @@ impl Simulation {
     ///
     /// # Errors
     ///
-    /// If a guard breaks. The state is then that of no time, and of use to nothing but looking.
-    pub fn advance_to(&mut self, time: f64) -> Result<(), Failure> {
+    /// If a guard breaks. The state then belongs to no time and is only good for inspection.
+    pub fn advance_to(&mut self, time: f64) -> Result<(), SpotFailure> {
         self.scratch.clock.enter();
         let advanced = match self.model.parameters.schedule {
             Schedule::Events => self.events_until(time),
@@ -99,12 +99,12 @@ impl Simulation {
         Ok(())
     }
 
-    /// Begins to measure what the parts of a drainage take. Never changes the motion.
+    /// Begins to measure the times of the parts of a drainage. Never changes the motion.
     pub(super) fn keep_profile(&mut self) {
         self.scratch.clock = Clock::started();
     }
 
-    /// What was measured.
+    /// The measured times.
     pub(super) fn profile(&self) -> Option<&Profile> {
         self.scratch.clock.profile()
     }
@@ -119,7 +119,7 @@ impl Simulation {
         &self.model.parameters
     }
 
-    /// Centres of the spheres in order of their numbers (m); None for those that have left.
+    /// Centres of the spheres in order of their numbers (m); `None` for spheres that have left.
     pub fn positions(&self) -> Vec<Option<Vector>> {
         let mut positions = vec![None; self.left.len()];
         for (id, &position) in self.arrangement.id.iter().zip(&self.position) {
@@ -130,7 +130,7 @@ impl Simulation {
         positions
     }
 
-    /// Where spheres were when they left (m), in order of their numbers; None for those inside.
+    /// Where spheres were when they left (m), in order of their numbers; `None` for spheres inside.
     pub fn left(&self) -> &[Option<Vector>] {
         &self.left
     }
@@ -146,19 +146,19 @@ impl Simulation {
     }
 
     /// The spots.
-    pub fn spots(&self) -> &[Spot] {
+    pub fn spots(&self) -> &[MovingSpot] {
         &self.spots
     }
 
     /// What has happened so far.
-    pub fn counts(&self) -> &Counts {
+    pub fn counts(&self) -> &SpotCounts {
         &self.counts
     }
 
     /// Lets steps, relaxations of all spheres and sorting use this number of threads.
     ///
     /// # Errors
-    /// If the system gives no threads.
+    /// If the system cannot start threads.
     pub fn use_threads(&mut self, threads: usize) -> Result<(), ThreadPoolBuildError> {
         self.workers = Workers::new(threads)?;
         Ok(())
@@ -168,10 +168,10 @@ impl Simulation {
     ///
     /// # Errors
     ///
-    /// If it cannot be written as bytes.
-    pub fn save(&self) -> Result<Vec<u8>, StartError> {
+    /// If it cannot be serialised.
+    pub fn save(&self) -> Result<Vec<u8>, SpotError> {
         let spheres = self.arrangement.spheres;
-        let state = State {
+        let state = SpotState {
             seed: self.seed,
             time: self.time,
             next_event: self.next_event,
@@ -187,31 +187,31 @@ impl Simulation {
             drawn: [self.random[0].drawn(), self.random[1].drawn()],
         };
         postcard::to_stdvec(&(&self.model.parameters, state))
-            .map_err(|error| StartError::Checkpoint(error.to_string()))
+            .map_err(|error| SpotError::Checkpoint(error.to_string()))
     }
 
     /// The simulation whose state was saved, with the same parameters.
     ///
     /// # Errors
     ///
-    /// If the bytes are no such state, or one of other parameters.
-    pub fn restore(parameters: Parameters, bytes: &[u8]) -> Result<Self, StartError> {
-        let (saved, mut state): (Parameters, State) = postcard::from_bytes(bytes)
-            .map_err(|error| StartError::Checkpoint(error.to_string()))?;
+    /// If the bytes are not such a state, or have other parameters.
+    pub fn restore(parameters: Parameters, bytes: &[u8]) -> Result<Self, SpotError> {
+        let (saved, mut state): (Parameters, SpotState) = postcard::from_bytes(bytes)
+            .map_err(|error| SpotError::Checkpoint(error.to_string()))?;
         if saved != parameters {
-            return Err(StartError::OtherParameters);
+            return Err(SpotError::OtherParameters);
         }
         parameters.check()?;
-        state.check().map_err(StartError::Checkpoint)?;
-        let model = Model::new(parameters);
+        state.check().map_err(SpotError::Checkpoint)?;
+        let model = SpotRules::new(parameters);
         let spheres = (state.reference, state.id);
         let arrangement = Arrangement::restored(model.sorting(), spheres)
             .map_err(|fault| failure(fault, None, &state.counts, state.time))
-            .map_err(|failure| StartError::Failure(Box::new(failure)))?;
+            .map_err(|failure| SpotError::Failure(Box::new(failure)))?;
         let filled = state.position.len() + ROWS;
         state.position.resize(filled, NOWHERE);
         let [walk, relaxation] = state.drawn;
-        let resumed = |name: &str, drawn| Stream::resumed(name, state.seed, drawn);
+        let resumed = |name: &str, drawn| RandomStream::resumed(name, state.seed, drawn);
         Ok(Self {
             model,
             arrangement,
@@ -261,7 +261,7 @@ impl Simulation {
                 position.push(*place);
             }
         }
-        let neighbours = std::mem::replace(&mut self.arrangement.neighbours, Neighbours::new());
+        let neighbours = std::mem::replace(&mut self.arrangement.neighbours, NeighbourLists::new());
         let (sorting, spheres) = (self.model.sorting(), (&mut position, ids));
         self.arrangement = self
             .workers
@@ -269,7 +269,7 @@ impl Simulation {
         self.position = position;
         self.scratch.wear = Wear::default();
         self.counts.sorts += 1;
-        self.scratch.clock.end_whole(Part::Order);
+        self.scratch.clock.end_whole(DrainagePart::Order);
         Ok(())
     }
 
@@ -281,15 +281,15 @@ impl Simulation {
         }
     }
 
-    /// What a broken guard is called outside.
-    pub(super) fn failure(&self, fault: Fault, time: f64) -> Failure {
+    /// The public report of a broken guard.
+    pub(super) fn failure(&self, fault: Fault, time: f64) -> SpotFailure {
         failure(fault, Some(&self.arrangement.id), &self.counts, time)
     }
 }
 
-fn failure(fault: Fault, ids: Option<&[u32]>, counts: &Counts, time: f64) -> Failure {
+fn failure(fault: Fault, ids: Option<&[u32]>, counts: &SpotCounts, time: f64) -> SpotFailure {
     let id = |slot: u32| ids.and_then(|ids| ids.get(slot as usize).copied());
-    Failure {
+    SpotFailure {
         guard: fault.guard,
         moves: counts.moves,
         time,
@@ -299,16 +299,16 @@ fn failure(fault: Fault, ids: Option<&[u32]>, counts: &Counts, time: f64) -> Fai
     }
 }
 
-fn check_positions(parameters: &Parameters, position: &[Vector]) -> Result<(), StartError> {
+fn check_positions(parameters: &Parameters, position: &[Vector]) -> Result<(), SpotError> {
     if position.len() > (u32::MAX / 64) as usize {
-        return Err(StartError::TooMany(position.len()));
+        return Err(SpotError::TooMany(position.len()));
     }
     let least = (0.5 - STICKING_OUT) * parameters.diameter;
     let [x, y] = [parameters.half_width, parameters.half_depth].map(|half| half - least);
     let inside =
         |it: &Vector| it.x.abs() <= x && it.y.abs() <= y && it.z >= least && it.z.is_finite();
     match position.iter().position(|it| !inside(it)) {
-        Some(sphere) => Err(StartError::Outside {
+        Some(sphere) => Err(SpotError::Outside {
             sphere,
             place: position[sphere],
         }),

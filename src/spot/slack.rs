@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 /// Greatest slack, in diameters.
 const MOST: f64 = 0.4;
 
-/// Share of their slack that spheres are meant to use at most, so that a step that moves them
-/// farther than those before does not use all of it.
+/// Intended largest share of their slack that spheres use, so that an unusually long step does not
+/// use all of it.
 const MOST_USED: f64 = 0.85;
 
 /// How much of their slack spheres have used since they were sorted.
@@ -18,15 +18,15 @@ pub(crate) struct Wear {
     pub(crate) worn: bool,
     /// One has used all of it: the spheres must be sorted before the next move.
     pub(crate) stale: bool,
-    /// Number of steps since the sorting, with the present one.
+    /// Number of steps since the sorting, including the present one.
     steps: u32,
     /// Square of the share of a slack from which the spheres are worn.
     limit: f64,
 }
 
 impl Wear {
-    /// Begins a step. Most spheres that are far from where they were have got there by a random
-    /// walk: the squares of distances grow by 1/s in the next step after s.
+    /// Begins a step. Most spheres that have moved far got there by a random walk: after s steps,
+    /// the squares of distances grow by 1/s in the next step.
     pub(crate) fn begin_step(&mut self) {
         self.steps = self.steps.saturating_add(1);
         let steps = f64::from(self.steps);
@@ -49,7 +49,7 @@ impl Wear {
         self.stale |= distance_squared > slack_squared;
     }
 
-    /// Notes what others have noted.
+    /// Merges the notes of another.
     pub(crate) fn note_all(&mut self, other: Self) {
         self.worn |= other.worn;
         self.stale |= other.stale;
@@ -59,8 +59,8 @@ impl Wear {
 /// The distance that a sphere may move before the next sorting, as a function of its place.
 ///
 /// Flow to an orifice is fastest there and falls off with the distance, until the random motion of
-/// spheres is greater. With a slack that does the same, spheres everywhere use theirs up about
-/// equally fast.
+/// spheres is greater. With a slack of the same shape, spheres everywhere use it up about equally
+/// fast.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Slack {
     /// Slack at a distance of one diameter from the orifice's centre (m).
@@ -74,8 +74,8 @@ pub(crate) struct Slack {
 }
 
 impl Slack {
-    /// The slack for these parameters: short lists of neighbours where spheres are relaxed often,
-    /// rare sorting where they are not.
+    /// The slack for these parameters: short neighbour lists if spheres are relaxed often,
+    /// otherwise rare sorting.
     pub(crate) fn of(parameters: &Parameters) -> Self {
         let (near, least) = match parameters.relaxation {
             Relaxation::EveryMove => (1.2, 0.065),
@@ -116,7 +116,7 @@ impl Slack {
         slack.max(self.least).min(self.most)
     }
 
-    /// The greatest slack of all (m).
+    /// The greatest slack anywhere (m).
     pub(crate) fn most(&self) -> f64 {
         self.most
     }
@@ -127,8 +127,8 @@ impl Slack {
         slack - self.step
     }
 
-    /// Within which distance of a sphere all must be listed that may touch it before the next
-    /// sorting (m).
+    /// The distance (m) within which all spheres must be listed that may touch a sphere before the
+    /// next sorting.
     pub(crate) fn reach(&self, place: Vector) -> f64 {
         let farthest = self.diameter + 2.0 * self.most;
         self.diameter + self.at(place) + self.near_to(place, farthest)

@@ -1,19 +1,19 @@
-//! Steps of fixed length: section 2.1 of Rycroft, Wong and Bazant (2010). There, lambda and mu are
-//! exchanged: a step takes 1/mu, and lambda/mu spots are inserted in each on average.
+//! Steps of fixed length: section 2.1 of Rycroft, Wong and Bazant (2010). The paper swaps lambda
+//! and mu there: a step takes 1/mu, and on average lambda/mu spots are inserted in each.
 //!
-//! Where the newest spots move first, a step has two parts: the newer, lower half of the spots, and
+//! If the newest spots move first, a step has two parts: the newer, lower half of the spots, and
 //! the rest. The lower part of a step can be made together with the upper part of the one before,
 //! which it touches only where they meet. Spheres are sorted between the parts, so that the bits do
 //! not depend on whether this is done.
 
-use super::batch::{Batch, Move};
-use super::guard::{Failure, Fault};
+use super::batch::{Move, MoveBatch};
+use super::guard::{Fault, SpotFailure};
 use super::parameters::{Relaxation, Schedule};
-use super::simulation::Simulation;
+use super::simulation::SpotSimulation;
 
-impl Simulation {
+impl SpotSimulation {
     /// Makes all steps that end by a time (s).
-    pub(super) fn steps_until(&mut self, time: f64) -> Result<(), Failure> {
+    pub(super) fn steps_until(&mut self, time: f64) -> Result<(), SpotFailure> {
         let made = match self.model.parameters.schedule {
             Schedule::StepsNewestFirst => self.steps_newest_first(time),
             _ => self.steps_in_random_order(time),
@@ -54,8 +54,8 @@ impl Simulation {
         upper.map_or(Ok(()), |rest| self.upper_part(&rest))
     }
 
-    /// Makes the lower part of a step, together with the upper part of the one before if that is
-    /// left. Returns the moves of the upper part.
+    /// Makes the lower part of a step, together with the remaining upper part of the step before,
+    /// if any. Returns the moves of the upper part.
     fn lower_part(&mut self, left: Option<Vec<Move>>) -> Result<Vec<Move>, Fault> {
         let upper = left.as_ref().map(Vec::len);
         let mut moves = left.unwrap_or_default();
@@ -111,15 +111,15 @@ impl Simulation {
     }
 
     /// Makes moves, sorts spheres in between if they must be, and removes spots. A step may end
-    /// with the first of the moves. Returns how many are left of some of the newest spots.
+    /// with the first of the moves. Returns how many of the newest spots remain.
     fn make_moves(
         &mut self,
         moves: &[Move],
         newest: usize,
         ending: Option<usize>,
     ) -> Result<usize, Fault> {
-        // Moves from the bottom to the top depend on each other: there is only one such chain in
-        // one part of a step.
+        // Moves from bottom to top form a chain of dependences, and a part of a step has only one
+        // such chain.
         let random = self.model.parameters.schedule == Schedule::StepsInRandomOrder;
         let apart = random || ending.is_some();
         let mut gone = vec![false; self.spots.len()];
@@ -144,14 +144,14 @@ impl Simulation {
     }
 
     /// Makes moves until the spheres must be sorted or a guard breaks. Returns how many were made
-    /// or begun. They are made on several threads if there are moves far apart from each other.
+    /// or begun. They are made on several threads if there are moves far enough apart.
     fn make_some(
         &mut self,
         moves: &[Move],
         gone: &mut [bool],
         apart: bool,
     ) -> (usize, Result<(), Fault>) {
-        let batch = Batch {
+        let batch = MoveBatch {
             model: &self.model,
             arrangement: &self.arrangement,
             spots: &self.spots,

@@ -2,7 +2,7 @@
 //!
 //! The box is divided by height into strips, one for each thread. A thread makes the moves of its
 //! strip in their order. Before a move that may touch the same spheres as an earlier one of a
-//! neighbouring strip, it waits for that one. All moves thus find the spheres as if the moves were
+//! neighbouring strip, it waits for that one. So every move finds the spheres as if all moves were
 //! made one after the other.
 
 use super::arrangement::Arrangement;
@@ -18,8 +18,8 @@ pub(super) const ABOVE: usize = 1;
 /// Fewest moves that are divided.
 const FEWEST: usize = 64;
 
-/// Of that many moves it is looked up whether a move has to wait for them. If it has to wait for
-/// none, it waits for the one before these: looking on would take longer.
+/// Number of earlier moves that are checked for conflicts with a move. If none conflicts, the move
+/// waits for the one before these: checking more would take longer.
 const LOOKED_UP: usize = 32;
 
 /// Divides moves among threads.
@@ -30,23 +30,23 @@ pub(super) struct Planner {
     /// Distance from the edge of a strip within which a move may touch a sphere that another strip
     /// keeps, or a move there (m).
     reach: f64,
-    /// Distance from a strip within which spheres were sorted that its moves may touch, or be
-    /// influenced by (m).
+    /// Distance (m) from a strip, at the time of sorting, of spheres that its moves may touch or
+    /// depend on.
     watched: f64,
-    /// The same for all spheres that are looked at (m).
+    /// The same for all spheres that are read (m).
     seen: f64,
 }
 
 /// Moves in strips.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Plan {
+pub(super) struct StripPlan {
     pub(super) strips: Vec<Strip>,
     /// Layer of cells of each move.
     layers: Vec<u32>,
     /// Layers of cells at which strips other than the lowest begin.
     edges: Vec<usize>,
     /// Moves within reach of each edge, below and above it.
-    near: Vec<[Near; 2]>,
+    near: Vec<[NearMoves; 2]>,
 }
 
 /// The moves of one strip and its spheres.
@@ -55,11 +55,11 @@ pub(super) struct Strip {
     pub(super) turns: Vec<Turn>,
     /// Number of moves that neighbours need to know of.
     shared: u32,
-    /// Slots of the spheres whose places this strip knows at the end.
+    /// Slots of the spheres whose final places this strip has.
     pub(super) own: Range<usize>,
     /// Slots of the spheres whose moves by other strips matter to it.
     pub(super) watched: Range<usize>,
-    /// Slots of all spheres that its moves look at.
+    /// Slots of all spheres that its moves read.
     pub(super) seen: Range<usize>,
 }
 
@@ -75,14 +75,14 @@ pub(super) struct Turn {
 }
 
 /// Centres of moves, and how many moves their strip has shared with each.
-type Near = Vec<(Vector, u32)>;
+type NearMoves = Vec<(Vector, u32)>;
 
 impl Planner {
     pub(super) fn new(parameters: &Parameters, slack: Slack) -> Self {
         let [x, y, z] = parameters.step;
         let step = (x * x + y * y + z * z).sqrt();
         let diameter = parameters.diameter;
-        // How far from a centre spheres have influence, and how far those get that are moved.
+        // How far from a centre spheres have influence, and how far moved spheres may get.
         let spot = parameters.spot_radius;
         let margin = 0.1 * diameter + parameters.greatest_displacement();
         let (mut read, mut moved) = (spot, spot + margin);
@@ -95,13 +95,13 @@ impl Planner {
             // A longer displacement by relaxation is an error.
             moved = moved.max(parameters.relaxation_radius + 0.5 * diameter);
         }
-        // A biased way is not known yet: a spot looks at the places around it.
+        // A biased step is not known yet: it depends on the spheres around the spot.
         if let Walk::Biased { .. } = parameters.walk {
             read = read.max(spot + 0.5 * step) + 0.5 * step;
             moved += 0.5 * step;
         }
         let conflict = moved + read;
-        // A sphere is not where it was sorted.
+        // Spheres have moved since they were sorted.
         let strayed = slack.most() + 0.5 * diameter;
         let watched = read.max(moved) + strayed;
         Self {
@@ -112,11 +112,11 @@ impl Planner {
         }
     }
 
-    /// Divides moves into some strips at most. `centre` gives their centres, as far as they are
-    /// known (m); `costs` are the times that a move takes in each of the last strips, in any unit.
+    /// Divides moves into at most this number of strips. `centre` gives their centres, as far as
+    /// they are known (m); `costs` are the times of a move in each of the last strips, in any unit.
     pub(super) fn divide(
         &self,
-        plan: &mut Plan,
+        plan: &mut StripPlan,
         arrangement: &Arrangement,
         (moves, centre): (usize, impl Fn(usize) -> Vector),
         (most, costs): (usize, &[f64]),
@@ -150,7 +150,7 @@ impl Planner {
     /// Adds a move to a strip. Layers have this height (m).
     fn add(
         &self,
-        plan: &mut Plan,
+        plan: &mut StripPlan,
         (number, centre): (usize, impl Fn(usize) -> Vector),
         (own, height): (usize, f64),
     ) {
@@ -178,8 +178,8 @@ impl Planner {
         strip.turns.push(turn);
     }
 
-    /// Begins strips between the edges of a plan.
-    fn begin(&self, plan: &mut Plan, arrangement: &Arrangement) {
+    /// Creates empty strips between the edges of a plan.
+    fn begin(&self, plan: &mut StripPlan, arrangement: &Arrangement) {
         let (layers, height) = arrangement.cells.layers();
         let halo = |distance: f64| (distance / height) as usize + 1;
         let (watched, seen) = (halo(self.watched), halo(self.seen));
@@ -189,7 +189,7 @@ impl Planner {
         };
         let count = plan.edges.len() + 1;
         plan.strips.resize_with(count, Strip::default);
-        plan.near.resize_with(count - 1, <[Near; 2]>::default);
+        plan.near.resize_with(count - 1, <[NearMoves; 2]>::default);
         plan.near.iter_mut().flatten().for_each(Vec::clear);
         let starts = std::iter::once(0).chain(plan.edges.iter().copied());
         let ends = plan.edges.iter().copied().chain([layers]);
@@ -202,8 +202,8 @@ impl Planner {
         }
     }
 
-    /// How many moves the other strip must have shared before one with this centre.
-    fn latest(&self, others: &Near, centre: Vector) -> u32 {
+    /// How many moves the other strip must have shared before a move with this centre.
+    fn latest(&self, others: &NearMoves, centre: Vector) -> u32 {
         let mut others = others.iter().rev();
         let conflicting = |(other, _): &&(Vector, u32)| self.conflict(*other, centre);
         let found = others.by_ref().take(LOOKED_UP).find(conflicting);
@@ -243,20 +243,20 @@ fn strips_of_layers(edges: &[usize], layers: usize) -> Vec<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::spot::random::Stream;
+    use crate::spot::random::RandomStream;
     use crate::spot::samples;
 
     #[test]
     fn moves_wait_for_earlier_ones_beyond_the_edge() {
         let simulation = samples::simulation(|_| {});
         let planner = Planner::new(&simulation.model.parameters, simulation.model.slack);
-        let mut random = Stream::new("strips", 1);
+        let mut random = RandomStream::new("strips", 1);
         let mut place = || {
             let x = 14.0 * random.uniform() - 7.0;
             Vector::new(x, 0.0, 16.0 * random.uniform())
         };
         let centres: Vec<Vector> = (0..400).map(|_| place()).collect();
-        let mut plan = Plan::default();
+        let mut plan = StripPlan::default();
         let moves = (centres.len(), |number| centres[number]);
         planner.divide(&mut plan, &simulation.arrangement, moves, (2, &[]));
         let [below, above] = &plan.strips[..] else {

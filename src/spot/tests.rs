@@ -1,10 +1,10 @@
-//! What simulations as wholes promise.
+//! Tests of whole simulations.
 
 use super::parameters::{Influence, Parameters, Relaxation, Schedule, Walk};
 use super::samples::{badness, packing, parameters, simulation};
-use super::simulation::Simulation;
-use super::state::StartError;
-use super::{Guard, packing};
+use super::simulation::SpotSimulation;
+use super::state::SpotError;
+use super::{SpotGuard, packing};
 use crate::measure::{Centres, solid_like};
 use crate::particles::vector::Vector;
 
@@ -14,7 +14,7 @@ const SCHEDULES: [Schedule; 3] = [
     Schedule::StepsNewestFirst,
 ];
 
-fn after(time: f64, change: impl FnOnce(&mut Parameters)) -> Simulation {
+fn after(time: f64, change: impl FnOnce(&mut Parameters)) -> SpotSimulation {
     let mut simulation = simulation(change);
     simulation.advance_to(time).expect("no guard breaks");
     simulation
@@ -36,7 +36,7 @@ fn spots_rise_at_mu_dz_and_their_density_is_lambda_over_mu_dz() {
         );
         let inserted = simulation.counts().inserted as f64;
         assert!((inserted / 1500.0 - 1.0).abs() < 0.1, "{inserted} spots");
-        // The front is where the density is half of that below.
+        // The front is where the density is half the density below.
         let (near, far) = (below(2.8 * 4.0 - 1.0), below(2.8 * 4.0));
         let expected = inserted * (1.0 - 1.0 / 11.2);
         assert!(
@@ -101,7 +101,7 @@ fn the_mean_flow_of_mirrored_starts_is_mirrored() {
         .map(|it| Vector::new(-it.x, it.y, it.z))
         .collect();
     let mean_flow = |start: &[Vector], side: f64| {
-        let mut simulation = Simulation::new(parameters(), start, 1).expect("a start");
+        let mut simulation = SpotSimulation::new(parameters(), start, 1).expect("a start");
         simulation.advance_to(2.0).expect("no guard breaks");
         let (mut sum, mut count) = (0.0, 0.0);
         for (now, start) in simulation.positions().into_iter().zip(start) {
@@ -141,7 +141,7 @@ fn bits_do_not_depend_on_threads_resumes_or_output() {
             }
             let saved = pieces.save().expect("saved");
             let parameters = pieces.parameters().clone();
-            let mut resumed = Simulation::restore(parameters, &saved).expect("restored");
+            let mut resumed = SpotSimulation::restore(parameters, &saved).expect("restored");
             resumed.use_threads(threads[1]).expect("threads");
             resumed.advance_to(0.8).expect("no guard breaks");
             assert_same(&whole, &resumed);
@@ -150,7 +150,7 @@ fn bits_do_not_depend_on_threads_resumes_or_output() {
     }
 }
 
-fn assert_same(one: &Simulation, other: &Simulation) {
+fn assert_same(one: &SpotSimulation, other: &SpotSimulation) {
     let about = (&one.parameters().schedule, &one.parameters().relaxation);
     assert_eq!(one.positions(), other.positions(), "{about:?}");
     assert_eq!(one.spots(), other.spots(), "{about:?}");
@@ -159,7 +159,7 @@ fn assert_same(one: &Simulation, other: &Simulation) {
     assert!(saved[0] == saved[1], "{about:?}");
 }
 
-/// Spots have reached the top by then, and strips are many where spots are small.
+/// Spots have then reached the top, and small spots give many strips.
 #[test]
 fn steps_have_the_same_bits_on_any_number_of_threads() {
     let kinds = [
@@ -216,7 +216,7 @@ fn guards_break_at_the_same_move_on_threads() {
                 schedule,
                 ..parameters()
             };
-            let mut simulation = Simulation::new(parameters, &twice, 1).expect("a start");
+            let mut simulation = SpotSimulation::new(parameters, &twice, 1).expect("a start");
             simulation.use_threads(threads).expect("threads");
             let failure = simulation.advance_to(4.0).expect_err("a guard breaks");
             (failure, simulation.positions())
@@ -280,47 +280,44 @@ fn biased_spots_die_at_the_surface_and_weighted_ones_push_harder() {
 fn guards_name_what_broke() {
     let mut twice = packing().to_vec();
     twice.push(packing()[700]);
-    let start = Simulation::new(parameters(), &twice, 1);
+    let start = SpotSimulation::new(parameters(), &twice, 1);
     let failure = start
         .expect("a start")
         .advance_to(4.0)
         .expect_err("a guard breaks");
-    assert_eq!(failure.guard, Guard::NotANumber);
+    assert_eq!(failure.guard, SpotGuard::NotANumber);
     assert!(failure.sphere.is_some() && failure.moves > 0);
     let near = packing()[700] + Vector::new(0.01, 0.0, 0.0);
     twice[2000] = near;
     twice.push(near + Vector::new(0.0, 0.01, 0.0));
-    let start = Simulation::new(parameters(), &twice, 1);
+    let start = SpotSimulation::new(parameters(), &twice, 1);
     let failure = start
         .expect("a start")
         .advance_to(4.0)
         .expect_err("a guard breaks");
-    assert_eq!(failure.guard, Guard::Displacement);
+    assert_eq!(failure.guard, SpotGuard::Displacement);
     let crowd = vec![Vector::new(0.0, 0.0, 2.0); 100];
-    let Err(StartError::Failure(failure)) = Simulation::new(parameters(), &crowd, 1) else {
+    let Err(SpotError::Failure(failure)) = SpotSimulation::new(parameters(), &crowd, 1) else {
         panic!("a crowd is refused");
     };
-    assert_eq!(failure.guard, Guard::Crowded);
+    assert_eq!(failure.guard, SpotGuard::Crowded);
     let outside = [Vector::new(0.0, 3.6, 2.0)];
-    let outside = Simulation::new(parameters(), &outside, 1);
-    assert!(matches!(
-        outside,
-        Err(StartError::Outside { sphere: 0, .. })
-    ));
+    let outside = SpotSimulation::new(parameters(), &outside, 1);
+    assert!(matches!(outside, Err(SpotError::Outside { sphere: 0, .. })));
 }
 
 #[test]
 fn checkpoints_of_other_runs_and_broken_ones_are_refused() {
     let saved = simulation(|_| {}).save().expect("saved");
     let other = Parameters::figure_2(1.0);
-    let refused = Simulation::restore(other, &saved).expect_err("other parameters");
-    assert_eq!(refused, StartError::OtherParameters);
-    let broken = Simulation::restore(parameters(), &saved[..saved.len() / 2]);
-    assert!(matches!(broken, Err(StartError::Checkpoint(_))));
+    let refused = SpotSimulation::restore(other, &saved).expect_err("other parameters");
+    assert_eq!(refused, SpotError::OtherParameters);
+    let broken = SpotSimulation::restore(parameters(), &saved[..saved.len() / 2]);
+    assert!(matches!(broken, Err(SpotError::Checkpoint(_))));
 }
 
 /// Symptom: more than half of the spheres of a packing were part of crystals. Cause: they were
-/// shaken for so long at every height of the lid that they crystallised on the way.
+/// shaken for so long at every height of the lid that they crystallised.
 #[test]
 fn start_packings_are_disordered() {
     let centres = Centres {

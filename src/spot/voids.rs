@@ -1,12 +1,12 @@
 //! The void model: Caram and Hong, Physical Review Letters 67 (1991) 828.
 //!
 //! Grains sit on the sites of a triangular lattice. A void that enters at the bottom changes places
-//! with one of the two grains above it, each with probability 1/2; if only one of these sites has a
-//! grain, with that one; if none has, the void is at the surface and ends.
+//! with one of the two grains above it, each with probability 1/2. If only one of these sites has a
+//! grain, it is chosen; if neither has, the void is at the surface and ends.
 
-use super::random::Stream;
+use super::random::RandomStream;
 
-/// Distance of rows, in units of that of sites in a row.
+/// Distance of rows, in units of the distance of sites in a row.
 pub const ROW_HEIGHT: f64 = 0.866_025_403_784_438_6;
 
 /// A silo of grains on a lattice. Odd rows are shifted to the right by half a site.
@@ -19,12 +19,12 @@ pub struct VoidSilo {
     grain: Vec<Option<u32>>,
     /// The site of each grain, until it has left.
     site: Vec<Option<u32>>,
-    random: Stream,
+    random: RandomStream,
 }
 
 impl VoidSilo {
-    /// A full lattice with an orifice of some sites in the middle of the lowest row. None if there
-    /// is no site, no orifice, an orifice wider than the silo, or more than 2^32 sites.
+    /// A full lattice with an orifice of some sites in the middle of the lowest row. `None` without
+    /// sites or orifice, with an orifice wider than the silo, or with more than 2^32 sites.
     pub fn new(columns: usize, rows: usize, orifice: usize, seed: u64) -> Option<Self> {
         let sites = u32::try_from(columns.checked_mul(rows)?).ok()?;
         if sites == 0 || orifice == 0 || orifice > columns {
@@ -35,18 +35,18 @@ impl VoidSilo {
             orifice: [(columns - orifice) / 2, orifice],
             grain: (0..sites).map(Some).collect(),
             site: (0..sites).map(Some).collect(),
-            random: Stream::new("voids", seed),
+            random: RandomStream::new("voids", seed),
         })
     }
 
-    /// Lets voids enter, each after the one before has reached the surface. Returns the number of
+    /// Lets voids enter, each after the previous one has reached the surface. Returns the number of
     /// grains that have left; a void that enters at an empty site takes none.
     pub fn drain(&mut self, voids: usize) -> usize {
         (0..voids).filter(|_| self.send_void()).count()
     }
 
     /// Place of a grain in units of the distance of sites in a row: along the row from the middle
-    /// of the silo, and upwards. None if it has left or does not exist.
+    /// of the silo, and upwards. `None` if it has left or does not exist.
     pub fn place(&self, grain: usize) -> Option<[f64; 2]> {
         let site = (*self.site.get(grain)?)? as usize;
         let (row, column) = (site / self.columns, site % self.columns);
@@ -78,7 +78,7 @@ impl VoidSilo {
         true
     }
 
-    /// The site above a void that it goes to; None at the surface.
+    /// The site above to which a void goes; `None` at the surface.
     fn above(&mut self, void: usize) -> Option<usize> {
         let (row, column) = (void / self.columns, void % self.columns);
         let start = (row + 1) * self.columns;
@@ -131,7 +131,7 @@ mod tests {
     #[test]
     fn grains_spread_as_far_as_the_flow_does() {
         // A grain takes steps of half a site, one per row that it sinks: its variance grows by 1/4
-        // per row. In the spot model it is smaller by a factor of hundreds.
+        // per row. In the spot model the variance is hundreds of times smaller.
         let (columns, rows) = (121, 120);
         let (mut squares, mut sunk) = (0.0, 0.0);
         let mut silo = VoidSilo::new(columns, rows, columns, 5).expect("a silo");

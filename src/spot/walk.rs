@@ -1,22 +1,22 @@
 //! The random walk of a spot.
 
 use super::arrangement::Arrangement;
-use super::model::{Model, Scratch};
+use super::model::{Scratch, SpotRules};
 use super::parameters::Walk;
 use crate::particles::vector::Vector;
 
 /// A spot of free volume.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct Spot {
+pub struct MovingSpot {
     /// Its centre (m).
     pub position: Vector,
     /// Number of moves it has made.
     pub moves: u32,
 }
 
-impl Model {
-    /// The way of a spot to one of its four places, chosen by a random number 0 <= u < 1. None if a
-    /// biased walk finds no sphere at any of them.
+impl SpotRules {
+    /// The step of a spot to one of its four places, chosen by a random number 0 <= u < 1. `None`
+    /// if a biased walk finds no sphere at any of them.
     pub(crate) fn step(
         &self,
         arrangement: &Arrangement,
@@ -38,7 +38,7 @@ impl Model {
         choose(weights, exponent, random).map(|place| ways[place])
     }
 
-    /// The middle of the way of a spot, if spheres have no influence on it; else where the spot is.
+    /// The middle of a spot's step, if spheres have no influence on it; else the spot's place.
     #[inline(always)]
     pub(crate) fn expected_centre(&self, spot: Vector, random: f64) -> Vector {
         match self.parameters.walk {
@@ -47,7 +47,7 @@ impl Model {
         }
     }
 
-    /// The way of a spot to one of its four places, cut off at the distance from walls.
+    /// The step of a spot to one of its four places, cut off at the distance from walls.
     #[inline(always)]
     fn way(&self, spot: Vector, place: usize) -> Vector {
         let parameters = &self.parameters;
@@ -73,13 +73,13 @@ impl Model {
 }
 
 /// Index of a place with probability p_i^beta / sum of p_j^beta (Rycroft, Wong and Bazant (2010),
-/// section 3), chosen by a random number 0 <= u < 1. None if all p are zero.
+/// section 3), chosen by a random number 0 <= u < 1. `None` if all p are zero.
 fn choose(counts: [f64; 4], exponent: f64, random: f64) -> Option<usize> {
     let most = counts.into_iter().fold(0.0, f64::max);
     if most == 0.0 {
         return None;
     }
-    // Shares of the greatest, which no exponent makes overflow.
+    // Relative to the greatest, so that no exponent overflows.
     let weights = counts.map(|count| match count > 0.0 {
         true if exponent == 1.0 => count / most,
         true => libm::pow(count / most, exponent),
@@ -103,12 +103,12 @@ fn choose(counts: [f64; 4], exponent: f64, random: f64) -> Option<usize> {
 mod tests {
     use super::*;
     use crate::spot::parameters::Parameters;
-    use crate::spot::random::Stream;
+    use crate::spot::random::RandomStream;
 
     #[test]
     fn a_free_walk_spreads_by_the_squares_of_its_steps() {
-        let model = Model::new(Parameters::figure_2(1.0));
-        let mut random = Stream::new("free walk", 1);
+        let model = SpotRules::new(Parameters::figure_2(1.0));
+        let mut random = RandomStream::new("free walk", 1);
         let (walkers, steps) = (4000, 100);
         let mut squares = 0.0;
         for _ in 0..walkers {
@@ -130,7 +130,7 @@ mod tests {
 
     #[test]
     fn steps_are_cut_off_at_the_walls() {
-        let model = Model::new(Parameters::figure_2(1.0));
+        let model = SpotRules::new(Parameters::figure_2(1.0));
         let way = model.way(Vector::new(-23.8, 2.9, 1.0), 1);
         assert!((way.x + 0.2).abs() < 1e-12);
         assert!((way.y - 0.1).abs() < 1e-12);
@@ -139,7 +139,7 @@ mod tests {
 
     #[test]
     fn places_are_chosen_by_powers_of_their_counts() {
-        let mut random = Stream::new("choices", 2);
+        let mut random = RandomStream::new("choices", 2);
         for (exponent, sum) in [(1.0, 10.0), (3.0, 100.0)] {
             let mut chosen = [0.0; 4];
             for _ in 0..40_000 {

@@ -1,15 +1,15 @@
-//! What one thread does of a batch: the moves of its strip.
+//! One thread's part of a batch: the moves of its strip.
 //!
-//! It has its own copy of the positions, as far as its moves look. Where a move has to wait for one
-//! of another strip, later moves are made that have nothing to do with it.
+//! It has its own copy of the positions that its moves read. While a move has to wait for one in
+//! another strip, later independent moves are made.
 
-use super::batch::{Batch, Done};
+use super::batch::{MadeMove, MoveBatch};
 use super::board::{Board, Inbox};
 use super::guard::Fault;
 use super::model::Scratch;
 use super::region::NOWHERE;
 use super::slack::Wear;
-use super::strips::{ABOVE, BELOW, Plan, Planner, Strip, Turn};
+use super::strips::{ABOVE, BELOW, Planner, Strip, StripPlan, Turn};
 use crate::particles::block::ROWS;
 use crate::particles::vector::Vector;
 use std::collections::VecDeque;
@@ -17,17 +17,17 @@ use std::iter::Peekable;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
-/// How often a thread looks whether another one has made a move before it lets others use its
-/// processor: about 20 microseconds.
+/// How often a thread checks whether another one has made a move before it yields its processor:
+/// about 20 microseconds.
 const LOOKS: usize = 1024;
 
-/// Most moves that wait.
+/// Largest number of waiting moves.
 const MOST_WAITING: usize = 32;
 
 /// A move that waits, and its centre, as far as it is known (m).
 type Waiting = (Turn, Vector);
 
-/// What one thread works with.
+/// The state of one thread.
 #[derive(Debug, Default)]
 #[repr(align(128))]
 pub(super) struct Worker {
@@ -35,22 +35,22 @@ pub(super) struct Worker {
     /// What another thread has moved.
     inbox: Inbox,
     pub(super) scratch: Scratch,
-    pub(super) done: Vec<Done>,
+    pub(super) done: Vec<MadeMove>,
     /// The guard that a move broke.
     pub(super) fault: Option<Fault>,
-    /// Moves that wait for other threads, and all that must follow them, in order.
+    /// Moves that wait for other threads, and moves that must follow them, in order.
     waiting: VecDeque<Waiting>,
     pub(super) wear: Wear,
-    /// For how long it had something to do (s).
+    /// Its busy time (s).
     pub(super) busy: f64,
 }
 
 /// What the threads share.
 #[derive(Clone, Copy)]
-pub(super) struct Task<'a> {
-    pub(super) batch: &'a Batch<'a>,
+pub(super) struct StripTask<'a> {
+    pub(super) batch: &'a MoveBatch<'a>,
     pub(super) planner: &'a Planner,
-    pub(super) plan: &'a Plan,
+    pub(super) plan: &'a StripPlan,
     pub(super) boards: &'a [Board],
     /// Only moves with smaller numbers are made.
     pub(super) end: &'a AtomicUsize,
@@ -62,7 +62,7 @@ pub(super) struct Task<'a> {
 
 impl Worker {
     /// Makes the moves of a strip. `position` are the centres before the batch (m).
-    pub(super) fn make_moves(&mut self, task: &Task<'_>, position: &[Vector]) {
+    pub(super) fn make_moves(&mut self, task: &StripTask<'_>, position: &[Vector]) {
         let start = Instant::now();
         let strip = &task.plan.strips[task.own];
         self.begin(strip, (position, task.wear));
@@ -82,7 +82,7 @@ impl Worker {
         self.position.resize(position.len(), NOWHERE);
         let seen = strip.seen.clone();
         self.position[seen.clone()].copy_from_slice(&position[seen]);
-        // What fills up the array for vectors.
+        // Padding for vector instructions.
         let filled = position.len() - ROWS;
         self.position[filled..].fill(NOWHERE);
         self.scratch.wear = wear;
@@ -94,10 +94,10 @@ impl Worker {
         self.busy = 0.0;
     }
 
-    /// The move that can be made next; None at the end. Waits if there is nothing else to do.
+    /// The move that can be made next; `None` at the end. Waits if there is nothing else to do.
     fn next_turn<'a>(
         &mut self,
-        task: &Task<'_>,
+        task: &StripTask<'_>,
         turns: &mut Peekable<impl Iterator<Item = &'a Turn>>,
     ) -> Option<Turn> {
         loop {
@@ -120,7 +120,7 @@ impl Worker {
     }
 
     /// Whether a move depends neither on other threads nor on moves that wait.
-    fn may_be_made(&self, task: &Task<'_>, turn: &Turn) -> bool {
+    fn may_be_made(&self, task: &StripTask<'_>, turn: &Turn) -> bool {
         if self.waiting.is_empty() {
             return task.is_ready(turn);
         }
@@ -132,8 +132,8 @@ impl Worker {
         !waiting.any(|(_, other)| task.planner.conflict(*other, centre))
     }
 
-    /// Makes a move. If it ends the batch, later moves are not made any more.
-    fn make(&mut self, task: &Task<'_>, turn: &Turn) {
+    /// Makes a move. If it ends the batch, later moves are no longer made.
+    fn make(&mut self, task: &StripTask<'_>, turn: &Turn) {
         for (side, neighbour) in sides(task.own).filter(|(side, _)| turn.after[*side] > 0) {
             // Seen from the neighbour, this strip is on the other side.
             let board = &task.boards[neighbour];
@@ -156,8 +156,8 @@ impl Worker {
         }
     }
 
-    /// Tells the neighbours what a move has done; it is one of so many that are shared.
-    fn share(&self, task: &Task<'_>, turn: &Turn, shared: u32) {
+    /// Reports a move to the neighbours. `shared` is the number of moves shared so far.
+    fn share(&self, task: &StripTask<'_>, turn: &Turn, shared: u32) {
         let board = &task.boards[task.own];
         for (side, neighbour) in sides(task.own).filter(|(side, _)| turn.shared[*side]) {
             let slots = self.scratch.moved.iter().chain(&self.scratch.relaxed);
@@ -167,7 +167,7 @@ impl Worker {
         board.show(shared);
     }
 
-    /// Takes over what the neighbours have shared last.
+    /// Takes over the last reports of the neighbours.
     pub(super) fn take_over_rest(&mut self, boards: &[Board], own: usize) {
         for (side, neighbour) in sides(own) {
             if let Some(board) = boards.get(neighbour) {
@@ -177,8 +177,8 @@ impl Worker {
     }
 }
 
-impl Task<'_> {
-    /// Whether the moves of other strips have been made that one depends on.
+impl StripTask<'_> {
+    /// Whether the moves of other strips on which a move depends have been made.
     fn is_ready(&self, turn: &Turn) -> bool {
         let after = sides(self.own).filter(|(side, _)| turn.after[*side] > 0);
         let mut after = after.map(|(side, neighbour)| (turn.after[side], &self.boards[neighbour]));

@@ -2,7 +2,7 @@
 
 mod scatter;
 
-use self::scatter::{ATTEMPTS, Room, scatter};
+use self::scatter::{ATTEMPTS, StartRoom, scatter};
 use crate::particles::Particles;
 use crate::particles::vector::Vector;
 use crate::scene::{Geometry, Radii, Scene, Start, StartSphere};
@@ -24,7 +24,7 @@ pub enum StartError {
         /// Radius of the sphere that found no room (m).
         radius: f64,
     },
-    /// Random positions need a tank to be in.
+    /// Random positions need a tank.
     #[error(
         "start.kind = \"random\" needs walls all around; give the tank a radius, or width and \
          depth, or list the spheres"
@@ -49,7 +49,7 @@ pub enum StartError {
 }
 
 /// The spheres of a scene at time zero, without fixed ones. All spheres of a feed are at the
-/// position where they will come in.
+/// position where they come in.
 ///
 /// # Errors
 /// If they cannot be placed.
@@ -104,13 +104,13 @@ fn place_at_random(
     scene: &Scene,
     heights: [f64; 2],
 ) -> Result<(), StartError> {
-    let room = Room::of_scene(scene, heights).ok_or(StartError::NoTank)?;
+    let room = StartRoom::of_scene(scene, heights).ok_or(StartError::NoTank)?;
     let mut random = scene.random_stream("positions");
     particles.position = scatter(&particles.radius, &room, &fixed(scene), &mut random)?;
     Ok(())
 }
 
-/// Places the spheres as they are listed. One that lists no radius keeps its own.
+/// Places the spheres as listed. A sphere without a listed radius keeps its own.
 fn place_listed(
     particles: &mut Particles,
     spins: &mut [Vector],

@@ -10,7 +10,7 @@ use rand::Rng;
 pub(super) const ATTEMPTS: usize = 100_000;
 
 /// Where centres may be at the start.
-pub(super) struct Room {
+pub(super) struct StartRoom {
     /// How far the walls are from the axis along x and y (m).
     reach: [f64; 2],
     /// Whether they are a cylinder.
@@ -19,8 +19,8 @@ pub(super) struct Room {
     heights: [f64; 2],
 }
 
-impl Room {
-    /// The room within the walls of a scene, if they are all around.
+impl StartRoom {
+    /// The room within the walls of a scene, if they enclose it.
     pub(super) fn of_scene(scene: &Scene, heights: [f64; 2]) -> Option<Self> {
         let tank = scene.tank.as_ref()?;
         let [Some(x), Some(y)] = tank.reach() else {
@@ -60,12 +60,12 @@ impl Room {
 /// the walls nor the spheres that are fixed.
 pub(super) fn scatter(
     radii: &[f64],
-    room: &Room,
+    room: &StartRoom,
     fixed: &Particles,
     random: &mut impl Rng,
 ) -> Result<Vec<Vector>, StartError> {
     let all = [&fixed.radius, radii].concat();
-    let mut grid = Grid::new(&all, room);
+    let mut grid = ScatterGrid::new(&all, room);
     let mut placed = fixed.position.clone();
     placed.reserve(radii.len());
     for &centre in &placed {
@@ -93,7 +93,7 @@ pub(super) fn scatter(
 }
 
 /// Cells over a room, at least as wide as the largest sphere, with the spheres placed so far.
-struct Grid {
+struct ScatterGrid {
     /// The corner of the room with the least coordinates (m), and the width of a cell (m).
     corner: Vector,
     width: f64,
@@ -105,17 +105,17 @@ struct Grid {
     before: Vec<u32>,
 }
 
-impl Grid {
+impl ScatterGrid {
     const NONE: u32 = u32::MAX;
 
-    fn new(radii: &[f64], room: &Room) -> Self {
+    fn new(radii: &[f64], room: &StartRoom) -> Self {
         let [x, y] = room.reach;
         let [low, high] = room.heights;
         let corner = Vector::new(-x, -y, low);
         let mut width = 2.0 * radii.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
         let cells = |side: f64, width: f64| (side / width).max(0.0) + 1.0;
         let sizes = |width: f64| [2.0 * x, 2.0 * y, high - low].map(|side| cells(side, width));
-        // A room that is nearly empty needs wider cells only.
+        // A nearly empty room only needs wider cells.
         while sizes(width).iter().product::<f64>() > 8.0 * (radii.len() as f64 + 512.0) {
             width *= 1.25;
         }
@@ -139,8 +139,8 @@ impl Grid {
         (a * self.sizes[1] + b) * self.sizes[2] + c
     }
 
-    /// A sphere outside of the room is in the nearest cell: two that are near are in cells side by
-    /// side even so.
+    /// A sphere outside the room is in the nearest cell: two spheres close to each other are still
+    /// in neighbouring cells.
     fn add(&mut self, place: Vector) {
         let cell = self.index(self.cell(place));
         let number = self.before.len() as u32;

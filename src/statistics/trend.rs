@@ -6,40 +6,40 @@ use super::student_t;
 /// the less neighbouring ones are correlated: Schmeiser, Operations Research 30, 556 (1982).
 const BLOCKS: usize = 10;
 
-/// Fewest values that have a trend: two in each block.
+/// Least number of values for a trend: two in each block.
 pub(crate) const LEAST_VALUES: usize = 2 * BLOCKS;
 
-/// Most bins of which the correlation is summed, which costs the square of their number.
+/// Largest number of bins for the sum of correlations, whose cost grows with the square.
 const MOST_BINS: usize = 500;
 
-/// Independent samples without which the scatter of the block means is no measure of their error.
-/// At a third of it, intervals miss the true change twice as often as they say.
+/// Least number of independent samples for which the scatter of the block means measures their
+/// error. At a third of it, intervals miss the true change twice as often as stated.
 const LEAST_SAMPLES: f64 = 24.0;
 
 /// The change of a series from its first to its last value, by a straight line.
 ///
-/// The line is fitted to the means of ten blocks. Their scatter about it measures its error,
-/// whatever the correlation of the values, if blocks are longer than that lasts (batch means:
-/// Schmeiser, 1982). Unlike the difference of two means (Geweke, Bayesian Statistics 4, 169 (1992))
-/// the scatter does not hold the change itself.
+/// The line is fitted to the means of ten blocks. Their scatter about it measures its error even
+/// for correlated values, if blocks are longer than the correlation time (batch means: Schmeiser,
+/// 1982). Unlike in the difference of two means (Geweke, Bayesian Statistics 4, 169 (1992)), the
+/// scatter does not include the change itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trend {
     /// The change.
     pub change: f64,
-    /// The change is less than this away from the true one upward, and downward, each with the
-    /// confidence that was asked for.
+    /// The true change is at most this much larger and at most this much smaller, each with the
+    /// requested confidence.
     pub error: f64,
-    /// Number of independent values that tell as much of the mean as the series: its length over
+    /// Number of independent values that determine the mean as well as the series: its length over
     /// the integrated correlation time, which is the initial monotone sum of Geyer, Statistical
-    /// Science 7, 473 (1992), about the line. No more than 500, of which it is told.
+    /// Science 7, 473 (1992), about the line. At most 500, the number of bins.
     pub samples: f64,
-    /// Largest value less the smallest.
+    /// Largest value minus the smallest.
     pub range: f64,
 }
 
 impl Trend {
-    /// The trend of values at equal intervals; none if they are fewer than two in each block, or
-    /// not all numbers.
+    /// The trend of values at equal intervals; `None` if there are fewer than two per block, or if
+    /// a value is not a number.
     ///
     /// ```
     /// use phase::statistics::Trend;
@@ -55,7 +55,7 @@ impl Trend {
             return None;
         }
         let blocks = means(values, BLOCKS);
-        let line = Line::through(&blocks);
+        let line = FittedLine::through(&blocks);
         let squares: f64 = blocks.iter().map(|it| line.miss(it) * line.miss(it)).sum();
         let freedom = BLOCKS - 2;
         let error_of_slope = (squares / freedom as f64 / line.spread).sqrt();
@@ -91,7 +91,7 @@ struct Mean {
     value: f64,
 }
 
-/// Means over so many blocks of as many values, within one.
+/// Means over `count` blocks of equal length, within one value.
 fn means(values: &[f64], count: usize) -> Vec<Mean> {
     let mean = |block| {
         let [from, to] = [block, block + 1].map(|it| it * values.len() / count);
@@ -105,14 +105,14 @@ fn means(values: &[f64], count: usize) -> Vec<Mean> {
 }
 
 /// A straight line by least squares.
-struct Line {
+struct FittedLine {
     middle: Mean,
     slope: f64,
     /// Sum of the squares of the places, from the middle.
     spread: f64,
 }
 
-impl Line {
+impl FittedLine {
     fn through(points: &[Mean]) -> Self {
         let count = points.len() as f64;
         let middle = Mean {
@@ -139,8 +139,7 @@ impl Line {
 }
 
 /// Integrated correlation time of values about zero, in their interval, at least 1: the sum over
-/// pairs of neighbouring lags as long as they are positive, none larger than the one before (Geyer,
-/// 1992).
+/// pairs of neighbouring lags as long as they are positive, made non-increasing (Geyer, 1992).
 fn correlation(values: &[f64]) -> f64 {
     let covariance = |lag: usize| {
         let pairs = values.iter().zip(&values[lag.min(values.len())..]);

@@ -136,7 +136,10 @@ mod tests {
         let other = folder.path().join("other.csv");
         write_failures(&variants, [&of_variant], &other).unwrap();
         let text_of_variant = std::fs::read_to_string(&other).unwrap();
-        assert!(text_of_variant.contains(",\"no drag, calm\","), "{text_of_variant}");
+        assert!(
+            text_of_variant.contains(",\"no drag, calm\","),
+            "{text_of_variant}"
+        );
         assert_eq!(read_failures(&variants, &other).unwrap(), [of_variant]);
 
         std::fs::write(&path, text.replace("40.0", "forty")).unwrap();

@@ -167,7 +167,7 @@ mod tests {
         };
         let faulty: Begin<'_> = &|job| match job.values[0] {
             1.0 => panic!("one is too few"),
-            3.0 => Err(BuildError::new(dem::BuildError::FrictionWithoutContact)),
+            3.0 => Err(BuildError::new(dem::DemBuildError::FrictionWithoutContact)),
             _ => Run::new(&job.scene),
         };
         let plan = Plan::new(&folder, jobs.clone(), 2).unwrap();

@@ -1,4 +1,4 @@
-//! The critical rotation of spheres that friction holds back.
+//! The critical rotation of spheres with friction.
 
 use super::{critical_rotation, unshielded_lift};
 use crate::scene::{Drag, Scene, Swirl, Updraught};
@@ -13,32 +13,32 @@ const HALVINGS: usize = 80;
 /// Critical angular velocity Omega_mu (rad/s) of the air where friction with floor and wall holds
 /// the spheres back: the bed turns with [Omega_c](critical_rotation) only if the air turns faster.
 ///
-/// The bed is a disc of the tank's radius R that turns as a whole, with Omega_c. The torque of the
-/// air, drag(u rho / R) at a distance rho from the axis, with the velocity u = (Omega_mu - Omega_c)
-/// R relative to it at the wall, is as large as that of friction, with the floor under the weight
-/// and with the wall under the centrifugal force:
+/// The bed is a disc of the tank's radius R that turns as a whole with Omega_c. The torque of the
+/// air, drag(u rho / R) at a distance rho from the axis, with the relative velocity u = (Omega_mu -
+/// Omega_c) R at the wall, balances the torque of friction, with the floor under the weight and
+/// with the wall under the centrifugal force:
 ///
 /// mean(drag(u rho / R) rho) = mu m (g max(1 - L, 0) + Omega_c^2 R) mean(rho),
 ///
 /// with the mean over the disc, m the mass of a sphere and mu the coefficient of friction at walls.
-/// The updraught takes the part L of the weight off the floor,
+/// The updraught carries the part L of the weight,
 ///
 /// L = F_z / (m g) (1 - alpha^N) / ((1 - alpha) N),   N = 16 n r^2 / (pi R^2),
 ///
-/// the mean over the N spheres of a column of eq. 24's square 4 r x 4 r, of which each shields
-/// those above it from the force F_z at the floor. With a quadratic drag alone it is
+/// the mean over the N spheres in a column of eq. 24's square 4 r x 4 r, each of which shields
+/// those above it from the force F_z at the floor. With quadratic drag only,
 ///
 /// Omega_mu = Omega_c + sqrt(5 mu m (g max(1 - L, 0) + Omega_c^2 R) / (3 c2)) / R.
 ///
-/// In a fluid the weight is less its buoyancy, the mass at the wall m + C rho V, and the pressure
-/// of the fluid that turns takes (rho_b + C rho_a) V Omega_mu^2 R off the load on the wall, at most
-/// all of it; Omega_c stays, as weight and centrifugal force of a bed that turns with its fluid are
-/// less by the same part.
+/// In a fluid, buoyancy is subtracted from the weight, the mass at the wall is m + C rho V, and the
+/// pressure of the rotating fluid reduces the load on the wall by (rho_b + C rho_a) V Omega_mu^2 R,
+/// at most to zero. Omega_c does not change, because weight and centrifugal force of a bed that
+/// turns with its fluid are reduced by the same factor.
 ///
-/// Left out: the height of the bed, over which the updraught decays, and the weight that leans on
-/// the wall.
+/// Neglected: the height of the bed, over which the updraught decays, and the weight carried by the
+/// wall.
 ///
-/// None without a tank with floor, gravity, a swirl, or a friction that can hold spheres at rest.
+/// `None` without a tank with floor, gravity, swirl, or friction that can hold spheres at rest.
 pub fn critical_rotation_with_friction(scene: &Scene) -> Option<f64> {
     let without = critical_rotation(
         scene.spheres.count as f64,
@@ -46,7 +46,7 @@ pub fn critical_rotation_with_friction(scene: &Scene) -> Option<f64> {
         scene.tank.as_ref()?.radius?,
         scene.dem.effects.gravity.as_ref()?.acceleration,
     );
-    let bed = Bed::of(scene, without)?;
+    let bed = TurningBed::of(scene, without)?;
     // The torque of the air rises with its rotation, and the load on the floor does not.
     let moves = |omega: f64| bed.drag_at(omega) >= bed.friction_at(omega);
     let mut high = 2.0 * without.max(f64::MIN_POSITIVE);
@@ -68,7 +68,7 @@ pub fn critical_rotation_with_friction(scene: &Scene) -> Option<f64> {
 }
 
 /// A bed that turns with Omega_c.
-struct Bed<'a> {
+struct TurningBed<'a> {
     drag: &'a Drag,
     updraught: Option<&'a Updraught>,
     /// Coefficient of friction mu.
@@ -80,7 +80,7 @@ struct Bed<'a> {
     floor: f64,
     /// Mass of a sphere (kg).
     mass: f64,
-    /// In the fluid (m/s2).
+    /// Gravity in the fluid (m/s2).
     gravity: f64,
     /// Spheres in a column of the shield, N.
     column: f64,
@@ -89,7 +89,7 @@ struct Bed<'a> {
     pressed_mass_ratio: f64,
 }
 
-impl<'a> Bed<'a> {
+impl<'a> TurningBed<'a> {
     fn of(scene: &'a Scene, rotation: f64) -> Option<Self> {
         let (spheres, effects) = (&scene.spheres, &scene.dem.effects);
         effects.swirl.as_ref()?;
@@ -126,7 +126,7 @@ impl<'a> Bed<'a> {
         (at(0) + inner + at(PARTS)) / (3.0 * PARTS as f64)
     }
 
-    /// mu m (g max(1 - L, 0) + Omega_c^2 R) (N) in air of a rotation (rad/s); in a fluid less.
+    /// mu m (g max(1 - L, 0) + Omega_c^2 R) (N) in air of a rotation (rad/s); less in a fluid.
     fn friction_at(&self, omega: f64) -> f64 {
         let lifted = self
             .updraught
@@ -182,8 +182,8 @@ mod tests {
         }
     }
 
-    /// The pressure of the fluid that turns takes the load off the wall: all of it in fast fluid,
-    /// and a part of it in slow, where the balance is a quadratic equation.
+    /// The pressure of the rotating fluid reduces the load on the wall: to zero in fast fluid, and
+    /// partly in slow fluid, where the balance is a quadratic equation.
     #[test]
     fn in_a_fluid_that_turns_the_wall_bears_less() {
         let radius = 0.004;
@@ -227,9 +227,9 @@ mod tests {
             scene.dem.effects.updraught = None;
             scene.dem.effects.gravity.as_mut().unwrap().acceleration = 9.8;
             let full = critical_rotation_with_friction(&scene).unwrap();
-            // Both parts of the load, by how the drag grows with the slip.
+            // Both parts of the load, from the growth of the drag with the slip.
             let drag = |omega: f64| {
-                let bed = Bed::of(&scene, without(radius)).unwrap();
+                let bed = TurningBed::of(&scene, without(radius)).unwrap();
                 bed.drag_at(omega)
             };
             let centrifugal = without(radius) * without(radius) * 0.06;
@@ -245,7 +245,7 @@ mod tests {
         scene = scene.with_values([("friction.coefficient", 0.0)]).unwrap();
         let omega = critical_rotation_with_friction(&scene).unwrap();
         assert!((omega - without(0.004)).abs() < 1e-9);
-        // Symptom: 22 % less in water. Its weight was less its buoyancy, the centrifugal force not.
+        // Symptom: 22 % less in water. Buoyancy reduced the weight but not the centrifugal force.
         scene.dem.effects.buoyancy = Some(Buoyancy { density: 998.0 });
         let in_water = critical_rotation_with_friction(&scene).unwrap();
         assert!((in_water - without(0.004)).abs() < 1e-9);

@@ -2,13 +2,13 @@
 
 use super::bench::{Bench, unguarded};
 use super::{Family, Measured, VerifyError, numbered};
-use crate::dem::Simulation;
+use crate::dem::DemSimulation;
 use crate::particles::vector::Vector;
 use crate::scene::{DemScene, Drag, Effects, Scene, StartSphere, Swirl, Updraught};
 use serde::Deserialize;
 
-/// Spheres that nothing but the air acts on; the forces on them at the start are measured. Air
-/// tables are those of a scene.
+/// Spheres on which only the air acts; the forces on them at the start are measured. Air tables are
+/// as in a scene.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct AirForce {
@@ -23,10 +23,10 @@ pub struct AirForce {
     updraught: Option<Updraught>,
 }
 
-/// A step of this length (s) moves nothing; forces do not depend on it.
+/// The step (s) is too short to move anything; forces do not depend on it.
 const DT: f64 = 1e-12;
 
-/// The density (kg/m3) does not matter either.
+/// Density (kg/m3), without effect on the forces.
 const DENSITY: f64 = 1000.0;
 
 impl Family for AirForce {
@@ -47,7 +47,7 @@ impl Family for AirForce {
             },
             ..bench.scene(DENSITY, self.radius, self.spheres.clone(), DT)
         };
-        let mut simulation = Simulation::new(&scene)?;
+        let mut simulation = DemSimulation::new(&scene)?;
         bench.advance(&mut simulation, 1)?;
         let forces = &simulation.particles().force;
         let components: [fn(&Vector) -> f64; 3] = [|f| f.x, |f| f.y, |f| f.z];

@@ -1,7 +1,7 @@
-//! What the families share: materials, bare scenes, counted steps.
+//! Common parts of the families: materials, bare scenes, counted steps.
 
 use super::VerifyError;
-use crate::dem::Simulation;
+use crate::dem::DemSimulation;
 use crate::dem::timestep::Impact;
 use crate::particles::Particles;
 use crate::particles::vector::Vector;
@@ -13,7 +13,7 @@ use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// What spheres and walls are made of.
+/// The material of spheres and walls.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Material {
@@ -36,7 +36,7 @@ pub(super) fn one() -> f64 {
 }
 
 impl Material {
-    /// Mass of a sphere of that radius (kg).
+    /// Mass of a sphere of this radius (kg).
     pub(super) fn mass(&self, radius: f64) -> f64 {
         Shape::Sphere.mass(self.density, radius)
     }
@@ -88,7 +88,7 @@ pub struct SilbertMaterial {
 }
 
 impl SilbertMaterial {
-    /// Mass of a sphere of that radius (kg).
+    /// Mass of a sphere of this radius (kg).
     pub(super) fn mass(&self, radius: f64) -> f64 {
         Shape::Sphere.mass(self.density, radius)
     }
@@ -112,13 +112,13 @@ impl SilbertMaterial {
     }
 }
 
-/// A material of either law, for set-ups that do not mind which.
+/// A material of either law, for set-ups that accept both.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(untagged)]
 pub enum AnyMaterial {
-    /// Of the Hertz contact.
+    /// For the Hertz contact.
     Hertz(Material),
-    /// Of that of Silbert et al.
+    /// For the contact of Silbert et al.
     Silbert(SilbertMaterial),
 }
 
@@ -131,7 +131,7 @@ impl AnyMaterial {
         }
     }
 
-    /// Mass of a sphere of that radius (kg).
+    /// Mass of a sphere of this radius (kg).
     pub(super) fn mass(&self, radius: f64) -> f64 {
         Shape::Sphere.mass(self.density(), radius)
     }
@@ -156,7 +156,7 @@ impl AnyMaterial {
     }
 }
 
-/// a b / (a + b), of masses or of radii.
+/// a b / (a + b), for masses or radii.
 pub(super) fn reduced(a: f64, b: f64) -> f64 {
     a * b / (a + b)
 }
@@ -169,7 +169,7 @@ pub(super) fn downward(acceleration: f64) -> Gravity {
     }
 }
 
-/// No walls but a floor at height zero.
+/// Only a floor at height zero.
 pub(super) fn floor() -> Tank {
     Tank {
         floor: Some(0.0),
@@ -192,15 +192,15 @@ pub(super) fn moving(position: [f64; 3], velocity: [f64; 3]) -> StartSphere {
     }
 }
 
-/// Steps between two looks at whether to stop.
+/// Steps between two checks whether to stop.
 const STEPS_AT_ONCE: u64 = 10_000;
 
-/// Where the simulations of one case run.
+/// Runs the simulations of one case.
 pub(super) struct Bench<'a> {
     integrator: Integrator,
     /// The quantities that the case expects.
     expected: &'a BTreeMap<String, f64>,
-    /// When set, the simulations are given up.
+    /// When set, the simulations stop.
     stop: &'a AtomicBool,
     steps: u64,
     moves: u64,
@@ -221,8 +221,8 @@ impl<'a> Bench<'a> {
         }
     }
 
-    /// A scene with these spheres and nothing else. Its guards let a sphere move as far in a step
-    /// as it likes: some set-ups have no contacts and need no small steps.
+    /// A scene with these spheres and nothing else. Its guards allow any displacement per step:
+    /// some set-ups have no contacts and need no small steps.
     pub(super) fn scene(
         &self,
         density: f64,
@@ -254,7 +254,7 @@ impl<'a> Bench<'a> {
     /// Advances and counts.
     pub(super) fn advance(
         &mut self,
-        simulation: &mut Simulation,
+        simulation: &mut DemSimulation,
         steps: u64,
     ) -> Result<(), VerifyError> {
         let before = simulation.moves();
@@ -275,7 +275,7 @@ impl<'a> Bench<'a> {
     /// Advances by a duration (s), to the nearest step.
     pub(super) fn advance_for(
         &mut self,
-        simulation: &mut Simulation,
+        simulation: &mut DemSimulation,
         duration: f64,
         dt: f64,
     ) -> Result<(), VerifyError> {
@@ -287,19 +287,20 @@ impl<'a> Bench<'a> {
         self.integrator
     }
 
-    /// How many steps ago spheres stood where the latest forces belong to: symplectic Euler moves
-    /// them after it evaluates the forces, and others do so in the middle of a step.
+    /// How many steps ago spheres were at the positions of the latest forces: symplectic Euler
+    /// moves them after it evaluates the forces, other schemes evaluate them in the middle of a
+    /// step.
     pub(super) fn age_of_forces(&self) -> f64 {
         match self.integrator {
             Integrator::SymplecticEuler => 1.0,
             Integrator::VelocityVerlet => 0.0,
-            // The last of many sub-steps, in an impact.
+            // In an impact, the last of many sub-steps.
             Integrator::AdaptiveVerlet => 0.0,
             Integrator::SynchronisedVerlet => 0.5,
         }
     }
 
-    /// Whether the case expects a quantity, which may take simulations of its own.
+    /// Whether the case expects a quantity, which may need extra simulations.
     pub(super) fn expects(&self, quantity: &str) -> bool {
         self.expected.contains_key(quantity)
     }
@@ -309,20 +310,20 @@ impl<'a> Bench<'a> {
         self.steps
     }
 
-    /// How often spheres were moved by all simulations so far, sub-steps counted.
+    /// How often spheres were moved by all simulations so far, counting sub-steps.
     pub(super) fn moves(&self) -> u64 {
         self.moves
     }
 
-    /// Sum of the forces on spheres that rest where these are, in a scene without gravity or air:
-    /// forces between spheres cancel, so that the force of the walls is left (N).
+    /// Force of the walls (N) on these spheres, without motion, gravity or air: the sum of all
+    /// forces, in which forces between spheres cancel.
     pub(super) fn force_of_walls(
         &mut self,
         scene: &Scene,
         particles: &Particles,
     ) -> Result<Vector, VerifyError> {
         let centre = |position: &Vector| at([position.x, position.y, position.z]);
-        // The first step of symplectic Euler evaluates the forces before anything has moved.
+        // The first step of symplectic Euler evaluates the forces before anything moves.
         let time = Time {
             integrator: Integrator::SymplecticEuler,
             ..scene.time.clone()
@@ -337,14 +338,14 @@ impl<'a> Bench<'a> {
             },
             ..scene.clone()
         };
-        let mut simulation = Simulation::new(&bare)?;
+        let mut simulation = DemSimulation::new(&bare)?;
         self.advance(&mut simulation, 1)?;
         let forces = &simulation.particles().force;
         Ok(forces.iter().fold(Vector::ZERO, |sum, &force| sum + force))
     }
 }
 
-/// Nothing that acts on spheres, and no guard on how far they move in a step.
+/// No forces on spheres, and no guard on displacements per step.
 pub(super) fn unguarded() -> DemScene {
     DemScene {
         guards: Guards {

@@ -1,17 +1,17 @@
-//! How fast the motion converges as the time step shrinks.
+//! Convergence of the motion as the time step shrinks.
 
 use super::bench::Bench;
 use super::{Family, Measured, VerifyError, named};
-use crate::dem::Simulation;
+use crate::dem::DemSimulation;
 use crate::scene::{DemScene, Guards, Scene, Time};
 use serde::Deserialize;
 
-/// A scene, run with its time step, a half and a quarter of it. Where the motion is smooth, the
-/// difference of two neighbouring runs shrinks by two to the order of the scheme.
+/// A scene, run with its time step, half of it and a quarter. For smooth motion, the difference of
+/// two consecutive runs shrinks by the factor two to the power of the scheme's order.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Convergence {
-    /// The scene; its integrator is that of the bench.
+    /// The scene; the bench sets its integrator.
     scene: Box<Scene>,
 }
 
@@ -31,7 +31,8 @@ impl Family for Convergence {
 }
 
 impl Convergence {
-    /// Places, and ways that velocities and surfaces would go in the duration (m), at the end.
+    /// Places at the end, and the distances (m) that velocities and spinning surfaces would cover
+    /// in the duration.
     fn end(&self, dt: f64, bench: &mut Bench<'_>) -> Result<Vec<f64>, VerifyError> {
         let duration = self.scene.time.duration;
         let scene = Scene {
@@ -49,7 +50,7 @@ impl Convergence {
             },
             ..(*self.scene).clone()
         };
-        let mut simulation = Simulation::new(&scene)?;
+        let mut simulation = DemSimulation::new(&scene)?;
         bench.advance_for(&mut simulation, duration, dt)?;
         let particles = simulation.particles();
         let spins = particles.spin.iter().zip(&particles.radius);

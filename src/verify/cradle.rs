@@ -2,18 +2,18 @@
 
 use super::bench::{Bench, Material, moving, unguarded};
 use super::{Family, Measured, VerifyError, numbered};
-use crate::dem::Simulation;
+use crate::dem::DemSimulation;
 use crate::particles::Particles;
 use crate::scene::{DemScene, Scene};
 use serde::Deserialize;
 
-/// Spheres in a row, of which the first ones come with one speed and the others are at rest.
+/// Spheres in a row; the first ones arrive with a common speed, the others are at rest.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Cradle {
     /// Number of spheres.
     count: usize,
-    /// How many of them come in.
+    /// Number of incident spheres.
     #[serde(default = "one_sphere")]
     incident: usize,
     /// Gap between all neighbours, in units of T v of the first impact.
@@ -32,7 +32,8 @@ fn one_sphere() -> usize {
     1
 }
 
-/// All is over within this many times the duration of an impact, and the time to cross the gaps.
+/// The motion ends within this many times the duration of an impact plus the time to cross the
+/// gaps.
 const PATIENCE: f64 = 1000.0;
 
 impl Family for Cradle {
@@ -60,7 +61,7 @@ impl Family for Cradle {
             },
             ..bench.scene(self.material.density, self.radius, spheres, dt)
         };
-        let mut simulation = Simulation::new(&scene)?;
+        let mut simulation = DemSimulation::new(&scene)?;
         let patience = (PATIENCE + self.gap * self.count as f64) * self.steps_per_contact;
         while !parted(simulation.particles()) {
             if simulation.step() as f64 > patience {

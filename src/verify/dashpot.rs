@@ -2,7 +2,7 @@
 
 use super::bench::{Bench, moving, reduced};
 use super::{Family, Measured, VerifyError, named};
-use crate::dem::Simulation;
+use crate::dem::DemSimulation;
 use crate::dem::timestep::LinearImpact;
 use crate::scene::{
     Contact, ContactDrag, DemScene, FixedSphere, Geometry, Linear, Scene, Shape, Spheres,
@@ -32,7 +32,7 @@ pub struct Dashpot {
     steps_per_contact: f64,
 }
 
-/// An impact takes less than this many times its duration in closed form.
+/// An impact takes less than this many times its closed-form duration.
 const PATIENCE: f64 = 10.0;
 
 impl Family for Dashpot {
@@ -44,7 +44,7 @@ impl Family for Dashpot {
     fn measure(&self, bench: &mut Bench<'_>) -> Result<Measured, VerifyError> {
         let impact = self.closed_form();
         let dt = impact.contact_time() / self.steps_per_contact;
-        let mut simulation = Simulation::new(&self.scene(dt, bench))?;
+        let mut simulation = DemSimulation::new(&self.scene(dt, bench))?;
         let mut overlap = 0.0;
         for _ in 0..(PATIENCE * self.steps_per_contact) as u64 {
             let earlier = overlap;
@@ -52,7 +52,7 @@ impl Family for Dashpot {
             let apart;
             (overlap, apart) = self.overlap(&simulation);
             if overlap <= 0.0 {
-                // The overlap is zero in between, if it falls as a straight line.
+                // The overlap reaches zero in between, by linear interpolation.
                 let behind = overlap / (overlap - earlier);
                 return Ok(named([
                     ("contact_time", simulation.time() - behind * dt),
@@ -79,7 +79,7 @@ impl Dashpot {
         }
     }
 
-    /// They touch at the start; the partner rests at the origin.
+    /// They touch at the start; the partner is at rest at the origin.
     fn scene(&self, dt: f64, bench: &Bench<'_>) -> Scene {
         let distance = self.radius + self.partner_radius;
         let mut spheres = vec![moving([distance, 0.0, 0.0], [-self.speed, 0.0, 0.0])];
@@ -117,7 +117,7 @@ impl Dashpot {
     }
 
     /// How far the two overlap (m), and how fast they part (m/s).
-    fn overlap(&self, simulation: &Simulation) -> (f64, f64) {
+    fn overlap(&self, simulation: &DemSimulation) -> (f64, f64) {
         let particles = simulation.particles();
         let (disc, partner) = match self.fixed {
             true => (1, 0),

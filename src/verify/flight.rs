@@ -2,14 +2,14 @@
 
 use super::bench::{Bench, moving, unguarded};
 use super::{Family, Measured, VerifyError, named};
-use crate::dem::Simulation;
+use crate::dem::DemSimulation;
 use crate::scene::{
     AddedMass, Buoyancy, Contact, ContactDrag, Coulomb, DemScene, Drag, Effects, Friction, Gravity,
     Linear, Magnus, Scene, StartSphere, Swirl, Updraught,
 };
 use serde::Deserialize;
 
-/// A single sphere in air and gravity, without walls. Tables of effects are those of a scene.
+/// A single sphere in air and gravity, without walls. Tables of effects are as in a scene.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Flight {
@@ -23,7 +23,7 @@ pub struct Flight {
     /// Velocity at the start (m/s).
     #[serde(default)]
     velocity: [f64; 3],
-    /// Spin at the start (rad/s), with [`magnus`](Self::magnus) alone.
+    /// Spin at the start (rad/s), only with [`magnus`](Self::magnus).
     #[serde(default)]
     spin: [f64; 3],
     #[serde(default)]
@@ -34,7 +34,7 @@ pub struct Flight {
     added_mass: Option<AddedMass>,
     #[serde(default)]
     drag: Option<Drag>,
-    /// A swirl with `omega = 0` is drag toward air at rest.
+    /// A swirl with `omega = 0` means drag toward air at rest.
     #[serde(default)]
     swirl: Option<Swirl>,
     #[serde(default)]
@@ -57,7 +57,8 @@ impl Family for Flight {
             spin: self.spin,
             ..moving(self.position, self.velocity)
         };
-        // Spheres have spins with friction alone, which needs a contact that never comes about.
+        // Spheres have spins only with friction, which needs a contact law although nothing
+        // touches.
         let rotates = self.magnus.is_some();
         let scene = Scene {
             dem: DemScene {
@@ -77,7 +78,7 @@ impl Family for Flight {
             },
             ..bench.scene(self.density, self.radius, vec![sphere], self.dt)
         };
-        let mut simulation = Simulation::new(&scene)?;
+        let mut simulation = DemSimulation::new(&scene)?;
         bench.advance_for(&mut simulation, self.duration, self.dt)?;
         let particles = simulation.particles();
         let (place, velocity) = (particles.position[0], particles.velocity[0]);

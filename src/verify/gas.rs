@@ -2,11 +2,11 @@
 
 use super::bench::{Bench, Material, downward, unguarded};
 use super::{Family, Measured, VerifyError, named};
-use crate::dem::Simulation;
+use crate::dem::DemSimulation;
 use crate::scene::{DemScene, Effects, Scene, Spheres, Start, Tank};
 use serde::Deserialize;
 
-/// Elastic spheres that bounce on one another and on the tank's walls, held by gravity.
+/// Elastic spheres that bounce on one another and on the tank's walls, under gravity.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Gas {
@@ -29,7 +29,7 @@ pub struct Gas {
     duration: f64,
 }
 
-/// The energy is checked this often in a run.
+/// Number of energy checks in a run.
 const LOOKS: u32 = 1000;
 
 impl Family for Gas {
@@ -44,7 +44,7 @@ impl Family for Gas {
             ("angular_momentum_drift", momentum),
         ]);
         if bench.expects("order") {
-            // Collisions are many and their errors random: halving the step would tell little.
+            // Collisions are many and their errors random: halving the step would reveal little.
             let [finer, _] = self.drifts(self.dt / 8.0, bench)?;
             measured.insert("order".to_owned(), libm::log2(energy / finer) / 3.0);
         }
@@ -53,9 +53,9 @@ impl Family for Gas {
 }
 
 impl Gas {
-    /// Root mean square deviations from their first values: of the energy, over that value, and of
-    /// the angular momentum about the axis, which a round wall without friction leaves alone, over
-    /// the sum of the sizes of all spheres' own.
+    /// Root mean square deviations from the first values: of the energy, relative to its first
+    /// value, and of the angular momentum about the axis, which a round wall without friction
+    /// conserves, relative to the sum of the spheres' absolute angular momenta.
     fn drifts(&self, dt: f64, bench: &mut Bench<'_>) -> Result<[f64; 2], VerifyError> {
         let scene = Scene {
             tank: Some(Tank {
@@ -86,7 +86,7 @@ impl Gas {
             },
             ..scene
         };
-        let mut simulation = Simulation::new(&scene)?;
+        let mut simulation = DemSimulation::new(&scene)?;
         let momenta = angular_momenta(&simulation);
         let first = [self.energy(&mut simulation), momenta.iter().sum()];
         let scale = [first[0], momenta.iter().map(|it| it.abs()).sum()];
@@ -105,7 +105,7 @@ impl Gas {
         Ok(sums.map(|sum| (sum / f64::from(LOOKS)).sqrt()))
     }
 
-    fn energy(&self, simulation: &mut Simulation) -> f64 {
+    fn energy(&self, simulation: &mut DemSimulation) -> f64 {
         let elastic = simulation.elastic_energy();
         let particles = simulation.particles();
         (0..particles.len())
@@ -119,7 +119,7 @@ impl Gas {
 }
 
 /// Angular momentum of each sphere about the axis of the tank (kg m2/s).
-fn angular_momenta(simulation: &Simulation) -> Vec<f64> {
+fn angular_momenta(simulation: &DemSimulation) -> Vec<f64> {
     let particles = simulation.particles();
     let momentum = |i: usize| {
         let (place, velocity) = (particles.position[i], particles.velocity[i]);

@@ -2,7 +2,7 @@
 
 use super::bench::{Bench, Material, floor, moving, reduced, unguarded};
 use super::{Family, Measured, VerifyError, named};
-use crate::dem::{Simulation, timestep};
+use crate::dem::{DemSimulation, timestep};
 use crate::particles::Particles;
 use crate::particles::vector::Vector;
 use crate::scene::{
@@ -14,27 +14,27 @@ use std::f64::consts::PI;
 /// A sphere hits a sphere or a wall.
 ///
 /// The normal n points from the partner to the sphere, the tangent t along the tangential part of
-/// its velocity; spins are about n x t, positive where the sphere rolls forward. Two spheres move
-/// in the frame of their centre of mass.
+/// its velocity; spins are about n x t, positive if the sphere rolls forward. Two spheres move in
+/// the frame of their centre of mass.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Impact {
     partner: Partner,
     /// Radius of the sphere (m).
     radius: f64,
-    /// Radius of the partner, if it is a sphere of another one (m).
+    /// Radius of the partner, if it is a sphere of different radius (m).
     #[serde(default)]
     partner_radius: Option<f64>,
     material: Material,
-    /// Whether the partner is rigid: a wall of the same material yields as much as the sphere, so
-    /// both together then yield as one material of twice the modulus.
+    /// Whether the partner is rigid: a wall of the same material yields as much as the sphere, so a
+    /// rigid one is modelled by twice the modulus.
     #[serde(default)]
     rigid: bool,
-    /// b = c A / T, in place of the material's dissipation time.
+    /// b = c A / T, instead of the material's dissipation time.
     #[serde(default)]
     damping: Option<f64>,
-    /// Restitution at the normal speed, in place of the dissipation time: the scene's own key,
-    /// which speaks of two spheres of the radius.
+    /// Restitution at the normal speed, instead of the dissipation time: the scene's key, for two
+    /// spheres of this radius.
     #[serde(default)]
     restitution: Option<f64>,
     #[serde(default)]
@@ -54,10 +54,10 @@ pub struct Impact {
     /// Time steps in the duration of the elastic impact.
     #[serde(default = "thousand")]
     steps_per_contact: f64,
-    /// Time step (s), in place of `steps_per_contact`.
+    /// Time step (s), instead of `steps_per_contact`.
     #[serde(default)]
     dt: Option<f64>,
-    /// Resolution of adaptive Verlet (rad), in place of the default.
+    /// Resolution of adaptive Verlet (rad), instead of the default.
     #[serde(default)]
     resolution: Option<f64>,
     /// Number of impacts to average over, which begin at equally spaced parts of a step; one
@@ -80,7 +80,7 @@ fn once() -> u32 {
 enum Partner {
     Sphere,
     Floor,
-    /// Tangential motion is along the axis, where a cylinder is as straight as a floor.
+    /// Tangential motion is along the axis, where a cylinder is straight.
     Cylinder,
 }
 
@@ -98,7 +98,7 @@ impl Partner {
 /// Radius of the cylinder, in radii of the sphere.
 const CYLINDER: f64 = 100.0;
 
-/// An impact takes less than this many times the duration of the elastic one.
+/// An impact takes less than this many times the duration of the elastic impact.
 const PATIENCE: f64 = 100.0;
 
 impl Family for Impact {
@@ -134,7 +134,7 @@ impl Impact {
         let dt = self.dt.unwrap_or(contact_time / self.steps_per_contact);
         let begin = phase * dt;
         let scene = self.scene(&material, begin, dt, bench);
-        let mut simulation = Simulation::new(&scene)?;
+        let mut simulation = DemSimulation::new(&scene)?;
         let before = self.state(simulation.particles());
 
         let (mut maximum_overlap, mut maximum_force) = (0.0_f64, 0.0_f64);
@@ -182,7 +182,7 @@ impl Impact {
         ]))
     }
 
-    /// The material whose equal walls yield as this set-up does.
+    /// The material for which walls of the same material yield as in this set-up.
     fn hardened(&self) -> Material {
         let mut material = self.material.clone();
         if self.rigid {
@@ -370,8 +370,8 @@ struct State {
     energy: f64,
 }
 
-/// When the force ended, between the last two moments: where the overlap ends with it, it is the
-/// overlap that runs straight to zero, else the clipped force does.
+/// When the force ended, between the last two moments, by linear extrapolation to zero: of the
+/// overlap if it ends with the force, else of the clipped force.
 fn end_of_contact(earlier: Moment, last: Moment, now: Moment) -> f64 {
     if now.overlap <= 0.0 {
         let fraction = last.overlap / (last.overlap - now.overlap);

@@ -2,12 +2,12 @@
 
 use super::bench::{AnyMaterial, Bench, at, floor, unguarded};
 use super::{Family, Measured, VerifyError, named};
-use crate::dem::Simulation;
+use crate::dem::DemSimulation;
 use crate::scene::{DemScene, Effects, Friction, Gravity, Scene};
 use serde::Deserialize;
 use std::f64::consts::PI;
 
-/// A sphere let go on an incline: the floor, with tilted gravity.
+/// A sphere released on an incline: the floor, with tilted gravity.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Incline {
@@ -55,7 +55,7 @@ impl Family for Incline {
                 self.dt,
             )
         };
-        let mut simulation = Simulation::new(&scene)?;
+        let mut simulation = DemSimulation::new(&scene)?;
         let half = 0.5 * self.duration;
         bench.advance_for(&mut simulation, half, self.dt)?;
         let middle = self.surface_speeds(&simulation);
@@ -63,7 +63,7 @@ impl Family for Incline {
         let end = self.surface_speeds(&simulation);
         Ok(named([
             ("acceleration", (end[0] - middle[0]) / half),
-            // Of the surface about the centre: the same where it rolls without slipping.
+            // Speed of the surface about the centre: equal if it rolls without slipping.
             ("surface_acceleration", (end[1] - middle[1]) / half),
         ]))
     }
@@ -71,7 +71,7 @@ impl Family for Incline {
 
 impl Incline {
     /// Speed of the centre down the incline, and of the surface about it.
-    fn surface_speeds(&self, simulation: &Simulation) -> [f64; 2] {
+    fn surface_speeds(&self, simulation: &DemSimulation) -> [f64; 2] {
         let particles = simulation.particles();
         [particles.velocity[0].x, particles.spin[0].y * self.radius]
     }

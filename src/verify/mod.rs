@@ -1,9 +1,9 @@
-//! Verification: simulations of set-ups whose outcome is known.
+//! Verification: simulations of set-ups with known results.
 //!
-//! A [`Case`] is a row of data: a set-up, the numbers to meet, a tolerance, a source. A family is a
-//! kind of set-up with its parameters: one file with what it simulates and measures, and a
-//! table of its rows beside it. A new case is a new row; a new family is a file, its table, and
-//! a line each in [`Setup`] and `TABLES`.
+//! A [`Case`] is a row of data: a set-up, the expected numbers, a tolerance, a source. A family is
+//! a kind of set-up with its parameters: a file that simulates and measures it, and a table of
+//! cases. A new case is a new row; a new family is a file, its table, and a line each in [`Setup`]
+//! and `TABLES`.
 //!
 //! ```
 //! use phase::{scene::Integrator, verify};
@@ -37,7 +37,7 @@ mod wall_orbit;
 pub use bench::{AnyMaterial, Material, SilbertMaterial};
 
 use crate::cpu_time;
-use crate::dem::BuildError;
+use crate::dem::DemBuildError;
 use crate::record::Instability;
 use crate::scene::Integrator;
 use bench::Bench;
@@ -71,21 +71,21 @@ const TABLES: [&str; 19] = [
     include_str!("spot_flow.toml"),
 ];
 
-/// A set-up whose outcome is known.
+/// A set-up with a known result.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Case {
-    /// What it is, in a few words; no two cases share it.
+    /// A unique short description.
     pub name: String,
     /// The family and its parameters.
     pub setup: Setup,
-    /// Quantities that the family measures, in SI units, and the numbers to meet.
+    /// Quantities that the family measures, in SI units, and their expected numbers.
     pub expect: BTreeMap<String, f64>,
-    /// How far a measurement may lie from its number.
+    /// Allowed deviation of a measurement from its number.
     pub tolerance: Tolerance,
-    /// Where the numbers come from.
+    /// Source of the numbers.
     pub source: String,
-    /// Integrators that claim this case; all, if the row does not say.
+    /// Integrators that are expected to pass; all, if the row does not say.
     #[serde(default = "all_integrators")]
     pub integrators: Vec<Integrator>,
 }
@@ -94,7 +94,7 @@ fn all_integrators() -> Vec<Integrator> {
     Integrator::ALL.to_vec()
 }
 
-/// How far a measurement may lie from its number.
+/// Allowed deviation of a measurement from its number.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Tolerance {
@@ -130,9 +130,9 @@ pub enum Setup {
     Impact(impact::Impact),
     /// Two discs, or a disc and a fixed one, hit each other under the linear contact.
     Dashpot(dashpot::Dashpot),
-    /// A sphere hits another one, or what does not move, under the contact of Silbert et al.
+    /// A sphere hits another one, or something fixed, under the contact of Silbert et al.
     SilbertImpact(silbert::SilbertImpact),
-    /// A sphere is pressed on the floor and moved to and fro.
+    /// A sphere is pressed on the floor and moved back and forth.
     TangentialLoop(tangential_loop::TangentialLoop),
     /// Spheres in a row, hit by the first of them.
     Cradle(cradle::Cradle),
@@ -142,17 +142,17 @@ pub enum Setup {
     Incline(incline::Incline),
     /// A sphere rolls against rolling resistance, on the level or on an incline.
     RollingResistance(rolling_resistance::RollingResistance),
-    /// Spheres at rest upon each other.
+    /// A column of spheres at rest.
     Stack(stack::Stack),
     /// A sphere at rest on three others in a cylinder.
     Tripod(tripod::Tripod),
-    /// A sphere on the floor swings about its rest.
+    /// A sphere on the floor oscillates about its rest position.
     Oscillation(oscillation::Oscillation),
     /// A single sphere in air and gravity.
     Flight(flight::Flight),
     /// Forces of the air on spheres at given places.
     AirForce(air_force::AirForce),
-    /// A sphere that turning air drives along the cylinder.
+    /// A sphere that rotating air drives along the cylinder.
     WallOrbit(wall_orbit::WallOrbit),
     /// An elastic gas in the tank.
     Gas(gas::Gas),
@@ -160,7 +160,7 @@ pub enum Setup {
     CriticalRotation(critical_rotation::CriticalRotation),
     /// Limits of the time step, in closed form.
     StepLimit(step_limit::StepLimit),
-    /// A scene with ever smaller time steps.
+    /// A scene with decreasing time steps.
     Convergence(convergence::Convergence),
     /// Spots that rise through a packing.
     SpotFlow(spot_flow::SpotFlow),
@@ -206,10 +206,10 @@ trait Family {
     fn measure(&self, bench: &mut Bench<'_>) -> Result<Measured, VerifyError>;
 }
 
-/// Quantities and what was measured of them (SI units).
+/// Quantities and their measured values (SI units).
 type Measured = BTreeMap<String, f64>;
 
-/// Names quantities that are numbered from 1.
+/// Names quantities numbered from 1.
 fn numbered(quantity: &str, values: impl IntoIterator<Item = f64>) -> Measured {
     let values = values.into_iter().enumerate();
     values
@@ -224,14 +224,14 @@ fn named<const N: usize>(quantities: [(&str, f64); N]) -> Measured {
         .into()
 }
 
-/// One number to meet and what was measured.
+/// An expected number and its measurement.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Check {
     /// The quantity.
     pub quantity: String,
-    /// The number to meet (SI units).
+    /// The expected number (SI units).
     pub expected: f64,
-    /// What was measured (SI units).
+    /// The measured number (SI units).
     pub measured: f64,
     /// Error on the scale of the tolerance.
     pub error: f64,
@@ -246,14 +246,14 @@ impl Check {
     }
 }
 
-/// What became of a case.
+/// The outcome of a case.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outcome {
-    /// Every number to meet.
+    /// The comparison of every expected number.
     pub checks: Vec<Check>,
     /// Steps simulated.
     pub steps: u64,
-    /// How often spheres were moved, sub-steps counted: each time with an evaluation of its force.
+    /// How often spheres were moved, counting sub-steps: each time with an evaluation of the force.
     pub moves: u64,
     /// Processor time it took (s).
     pub cpu_seconds: f64,
@@ -271,20 +271,20 @@ impl Outcome {
 pub enum VerifyError {
     /// The scene cannot be built.
     #[error(transparent)]
-    Build(#[from] BuildError),
+    Build(#[from] DemBuildError),
     /// A guard ended the simulation.
     #[error(transparent)]
     Unstable(#[from] Instability),
-    /// Spots cannot begin, or break a guard.
+    /// A spot simulation cannot start, or breaks a guard.
     #[error("{0}")]
     Spots(String),
     /// It was told to stop.
     #[error("stopped before its end")]
     Stopped,
-    /// What the family waits for does not happen.
+    /// The event that the family waits for does not happen.
     #[error("no end after {steps} steps: {awaited}")]
     Unfinished {
-        /// What it waits for.
+        /// The awaited event.
         awaited: &'static str,
         /// Steps done.
         steps: u64,
@@ -292,9 +292,9 @@ pub enum VerifyError {
     /// The family does not measure this.
     #[error("this set-up has no quantity \"{quantity}\"; it has {known}")]
     UnknownQuantity {
-        /// What the case expects.
+        /// The expected quantity.
         quantity: String,
-        /// What the family measures, separated by commas.
+        /// The measured quantities, separated by commas.
         known: String,
     },
 }
@@ -308,7 +308,7 @@ pub fn cases() -> &'static [Case] {
     })
 }
 
-/// The row of a case as the table has it, so that some of its keys can be changed.
+/// The row of a case as in its table, so that some of its keys can be changed.
 pub(crate) fn row(name: &str) -> Option<Value> {
     let mut rows = TABLES
         .iter()
@@ -328,13 +328,13 @@ fn rows(text: &str) -> Result<Vec<Value>, toml::de::Error> {
 /// Reads a table of cases.
 ///
 /// # Errors
-/// The first place that is no such table.
+/// The first place that is not such a table.
 pub fn parse(text: &str) -> Result<Vec<Case>, toml::de::Error> {
     rows(text)?
         .into_iter()
         .enumerate()
         .map(|(row, case)| {
-            // By way of a tree, as scenes, so that what reads the families is compiled once.
+            // Via a tree, like scenes, so that the code that reads families is compiled only once.
             serde_json::from_value(case).map_err(|error| {
                 toml::de::Error::custom(format!("case {} of the table: {error}", row + 1))
             })
@@ -345,15 +345,16 @@ pub fn parse(text: &str) -> Result<Vec<Case>, toml::de::Error> {
 /// Simulates a case with an integrator and compares.
 ///
 /// # Errors
-/// If the set-up cannot be simulated, or the case expects what its family does not measure.
+/// If the set-up cannot be simulated, or the case expects a quantity that its family does not
+/// measure.
 pub fn run(case: &Case, integrator: Integrator) -> Result<Outcome, VerifyError> {
     run_until(case, integrator, &AtomicBool::new(false))
 }
 
-/// The same, given up when `stop` is set.
+/// The same, but stops when `stop` is set.
 ///
 /// # Errors
-/// Those of [`run`], and [`VerifyError::Stopped`].
+/// As for [`run`], and [`VerifyError::Stopped`].
 pub fn run_until(
     case: &Case,
     integrator: Integrator,

@@ -1,13 +1,13 @@
-//! A sphere on the floor swings about its rest.
+//! A sphere on the floor oscillates about its rest position.
 
 use super::bench::{AnyMaterial, Bench, downward, floor, moving, unguarded};
 use super::{Family, Measured, VerifyError, named};
-use crate::dem::Simulation;
+use crate::dem::DemSimulation;
 use crate::scene::{DemScene, Effects, Friction, Scene};
 use serde::Deserialize;
 use std::f64::consts::PI;
 
-/// A sphere on the floor, pressed by its weight, set in motion at its rest.
+/// A sphere on the floor, pressed by its weight, set in motion at its rest position.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Oscillation {
@@ -27,18 +27,18 @@ pub struct Oscillation {
     periods: u32,
 }
 
-/// Which way it swings.
+/// The direction of the oscillation.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 enum Mode {
-    /// Up and down on the normal stiffness.
+    /// Vertical, against the normal stiffness.
     Normal,
-    /// To and fro on the tangential stiffness, turning as it goes: the surface moves by 7/2 of
-    /// what the force would move the mass alone.
+    /// Horizontal, against the tangential stiffness, with rotation: the surface moves 7/2 times as
+    /// far as the force would move the mass alone.
     Tangential,
 }
 
-/// Steps per period at which a set-up that does not swing is given up.
+/// Number of steps after which a set-up that does not oscillate is given up.
 const PATIENCE: u64 = 10_000_000;
 
 impl Family for Oscillation {
@@ -67,7 +67,7 @@ impl Family for Oscillation {
             },
             ..bench.scene(self.material.density(), self.radius, vec![sphere], self.dt)
         };
-        let mut simulation = Simulation::new(&scene)?;
+        let mut simulation = DemSimulation::new(&scene)?;
         let mut crossings = Vec::new();
         let mut last = self.surface_velocity(&simulation);
         while crossings.len() <= self.periods as usize {
@@ -99,7 +99,7 @@ impl Family for Oscillation {
 
 impl Oscillation {
     /// Velocity of the lowest point of the sphere, in the direction of the mode.
-    fn surface_velocity(&self, simulation: &Simulation) -> f64 {
+    fn surface_velocity(&self, simulation: &DemSimulation) -> f64 {
         let particles = simulation.particles();
         match self.mode {
             Mode::Normal => particles.velocity[0].z,

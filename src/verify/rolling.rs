@@ -2,7 +2,7 @@
 
 use super::bench::{AnyMaterial, Bench, downward, floor, moving, unguarded};
 use super::{Family, Measured, VerifyError, named};
-use crate::dem::Simulation;
+use crate::dem::DemSimulation;
 use crate::particles::Particles;
 use crate::scene::{Coulomb, DemScene, Effects, Friction, Scene, StartSphere};
 use serde::Deserialize;
@@ -19,7 +19,7 @@ pub struct Rolling {
     gravity: f64,
     /// Speed at the start (m/s).
     speed: f64,
-    /// Spin at the start, positive where the sphere rolls forward (rad/s).
+    /// Spin at the start, positive if the sphere rolls forward (rad/s).
     #[serde(default)]
     spin: f64,
     /// Time step (s).
@@ -34,15 +34,15 @@ impl Family for Rolling {
     }
 
     fn measure(&self, bench: &mut Bench<'_>) -> Result<Measured, VerifyError> {
-        let mut simulation = Simulation::new(&self.scene(bench))?;
-        // Sliding ends where the friction no longer has its full size: below the speed at which it
-        // is regularised, or where the sliding turns round.
+        let mut simulation = DemSimulation::new(&self.scene(bench))?;
+        // Sliding ends when friction drops below its full size: below the speed of regularisation,
+        // or when the sliding reverses.
         let rest = match self.friction {
             Friction::Coulomb(Coulomb { regularisation, .. }) => regularisation,
             _ => 0.0,
         };
         let sign = (self.speed - self.spin * self.radius).signum();
-        let moment = |simulation: &Simulation| {
+        let moment = |simulation: &DemSimulation| {
             let particles = simulation.particles();
             Moment {
                 time: simulation.time(),
@@ -66,7 +66,7 @@ impl Family for Rolling {
                 steps: simulation.step(),
             });
         };
-        // The spring of Mindlin's law still swings: the mean speed from then on counts.
+        // The spring of Mindlin's law still oscillates: the mean speed from then on counts.
         let speed = (now.distance - rolls.distance) / (now.time - rolls.time);
         Ok(named([
             ("rolling_time", rolls.time),
@@ -84,7 +84,7 @@ struct Moment {
 }
 
 impl Moment {
-    /// Where the straight line through this moment and the next one has no sliding.
+    /// The moment without sliding, by linear interpolation between this moment and the next.
     fn straight_on(self, next: Self) -> Self {
         let ahead = next.sliding / (self.sliding - next.sliding);
         Self {

@@ -2,12 +2,12 @@
 
 use super::bench::{AnyMaterial, Bench, floor, moving, unguarded};
 use super::{Family, Measured, VerifyError, named};
-use crate::dem::Simulation;
+use crate::dem::DemSimulation;
 use crate::scene::{DemScene, Effects, Friction, Gravity, Rolling, Scene, StartSphere};
 use serde::Deserialize;
 use std::f64::consts::PI;
 
-/// A sphere rolls without sliding, or is let go, on the floor with tilted gravity.
+/// A sphere rolls without sliding, or is released, on the floor with tilted gravity.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RollingResistance {
@@ -36,9 +36,9 @@ impl Family for RollingResistance {
     }
 
     fn measure(&self, bench: &mut Bench<'_>) -> Result<Measured, VerifyError> {
-        let mut simulation = Simulation::new(&self.scene(bench))?;
-        let place = |simulation: &Simulation| simulation.particles().position[0].x;
-        let speed = |simulation: &Simulation| simulation.particles().velocity[0].x;
+        let mut simulation = DemSimulation::new(&self.scene(bench))?;
+        let place = |simulation: &DemSimulation| simulation.particles().position[0].x;
+        let speed = |simulation: &DemSimulation| simulation.particles().velocity[0].x;
         let mut farthest = 0.0_f64;
         let mut middle = None;
         while simulation.time() < self.duration {

@@ -1,22 +1,22 @@
-//! A sphere hits another one, or what does not move, under the Hertz contact of Silbert et al.,
+//! A sphere hits another one, or something fixed, under the Hertz contact of Silbert et al.,
 //! head-on or obliquely with their friction.
 
 use super::bench::{Bench, SilbertMaterial, moving, unguarded};
 use super::{Family, Measured, VerifyError, named};
-use crate::dem::Simulation;
+use crate::dem::DemSimulation;
 use crate::particles::vector::Vector;
 use crate::scene::{DemScene, FixedSphere, Friction, Geometry, Scene, Tank};
 use serde::Deserialize;
 use std::f64::consts::PI;
 
-/// A sphere hits another one, or what does not move. Two spheres move in the frame of the second.
+/// A sphere hits another one, or something fixed. Two spheres move in the frame of the second.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SilbertImpact {
     partner: Partner,
     /// Radius of the sphere (m).
     radius: f64,
-    /// Radius of the partner, if it is a sphere of another one (m).
+    /// Radius of the partner, if it is a sphere of different radius (m).
     #[serde(default)]
     partner_radius: Option<f64>,
     material: SilbertMaterial,
@@ -42,7 +42,7 @@ enum Partner {
     Side,
 }
 
-/// An impact takes less than this many times the duration of the elastic one.
+/// An impact takes less than this many times the duration of the elastic impact.
 const PATIENCE: f64 = 10.0;
 
 impl Family for SilbertImpact {
@@ -51,7 +51,7 @@ impl Family for SilbertImpact {
     }
 
     /// Contact time, restitution and deepest overlap of a head-on impact; the spin of the sphere
-    /// (rad/s), positive where it rolls forward, after oblique ones.
+    /// (rad/s), positive if it rolls forward, after oblique impacts.
     fn measure(&self, bench: &mut Bench<'_>) -> Result<Measured, VerifyError> {
         if self.angles.is_empty() {
             let outcome = self.impact(0.0, bench)?;
@@ -69,7 +69,7 @@ impl Family for SilbertImpact {
     }
 }
 
-/// What an impact leaves.
+/// The result of an impact.
 struct Outcome {
     contact_time: f64,
     restitution: f64,
@@ -83,7 +83,7 @@ impl SilbertImpact {
         let (sine, cosine) = libm::sincos(angle * PI / 180.0);
         let velocity = Vector::new(-cosine, 0.0, sine) * self.speed;
         let dt = self.elastic_time(-velocity.x) / self.steps_per_contact;
-        let mut simulation = Simulation::new(&self.scene(velocity, dt, bench))?;
+        let mut simulation = DemSimulation::new(&self.scene(velocity, dt, bench))?;
         let (mut overlap, mut deepest) = (0.0, 0.0_f64);
         for _ in 0..(PATIENCE * self.steps_per_contact) as u64 {
             let earlier = overlap;
@@ -92,7 +92,7 @@ impl SilbertImpact {
             (overlap, apart) = self.overlap(&simulation);
             deepest = deepest.max(overlap);
             if overlap <= 0.0 {
-                // The overlap is zero in between, if it falls as a straight line.
+                // The overlap reaches zero in between, by linear interpolation.
                 let behind = overlap / (overlap - earlier);
                 let particles = simulation.particles();
                 let spin = particles.spin.get(particles.fixed);
@@ -131,7 +131,7 @@ impl SilbertImpact {
             .contact_time()
     }
 
-    /// They touch at the start; the partner rests at the origin.
+    /// They touch at the start; the partner is at rest at the origin.
     fn scene(&self, velocity: Vector, dt: f64, bench: &Bench<'_>) -> Scene {
         let distance = match self.partner {
             Partner::Side => 0.0,
@@ -177,7 +177,7 @@ impl SilbertImpact {
     }
 
     /// How far the two overlap (m), and how fast they part (m/s).
-    fn overlap(&self, simulation: &Simulation) -> (f64, f64) {
+    fn overlap(&self, simulation: &DemSimulation) -> (f64, f64) {
         let particles = simulation.particles();
         let (position, velocity) = (&particles.position, &particles.velocity);
         let sphere = particles.fixed;

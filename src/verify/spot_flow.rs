@@ -1,19 +1,19 @@
-//! Spots that rise through spheres on a lattice.
+//! Spots rise through spheres on a lattice.
 
 use super::bench::Bench;
 use super::{Family, Measured, VerifyError, named};
 use crate::particles::vector::Vector;
-use crate::spot::{Orifice, Parameters, Relaxation, Schedule, Simulation};
+use crate::spot::{Parameters, Relaxation, Schedule, SpotOpening, SpotSimulation};
 use serde::Deserialize;
 use std::f64::consts::PI;
 
-/// Spots enter a box at a constant rate and rise, until before the first is at the top. Spheres
-/// start on a cubic lattice and follow them. Their overlaps are removed all at once, but not where
-/// the flow is measured: its closed form knows spots alone.
+/// Spots enter a box at a constant rate and rise; the run ends before the first reaches the top.
+/// Spheres start on a cubic lattice and follow them. Overlaps are removed for all spheres at once,
+/// but not when the flow is measured, because its closed form includes only spots.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SpotFlow {
-    /// Number of spheres, of a diameter of 1 m.
+    /// Number of spheres with a diameter of 1 m.
     spheres: usize,
     /// Width and depth of the box (m).
     sides: [f64; 2],
@@ -21,12 +21,12 @@ pub struct SpotFlow {
     step: [f64; 2],
     /// Spots that enter per second, and steps of each (1/s).
     rates: [f64; 2],
-    /// Whether spots move in steps of a time of their own, or all at once.
+    /// Whether each spot moves at its own times, or all at once in steps.
     #[serde(default)]
     all_at_once: bool,
-    /// When spots are looked at (s).
+    /// When spots are observed (s).
     time: f64,
-    /// From when on the flow of spheres is measured, to the same time (s).
+    /// Start of the measurement of the flow of spheres, which ends at the same time (s).
     flow_from: Option<f64>,
     seed: u64,
 }
@@ -34,8 +34,8 @@ pub struct SpotFlow {
 /// Heights between which spots are counted (m): above the first step, and below the front.
 const LOWEST: f64 = 0.5;
 const BELOW_FRONT: f64 = 0.85;
-/// The layer in which the flow is measured (m), and the half width of its middle, in which spheres
-/// are as dense as far from walls.
+/// The layer in which the flow is measured (m), and the half width of its middle, where walls do
+/// not affect the density.
 const LAYER: [f64; 2] = [3.0, 5.0];
 const MIDDLE: f64 = 6.0;
 
@@ -47,7 +47,7 @@ impl Family for SpotFlow {
     fn measure(&self, _: &mut Bench<'_>) -> Result<Measured, VerifyError> {
         let spots = |error: &dyn std::fmt::Display| VerifyError::Spots(error.to_string());
         let parameters = self.parameters();
-        let mut simulation = Simulation::new(parameters, &self.lattice(), self.seed)
+        let mut simulation = SpotSimulation::new(parameters, &self.lattice(), self.seed)
             .map_err(|error| spots(&error))?;
         let before = match self.flow_from {
             None => None,
@@ -67,7 +67,7 @@ impl Family for SpotFlow {
             .collect();
         let count = counted.len() as f64;
         let per_height = count / (highest - LOWEST);
-        // x^2 over the variance of as many steps as lead to that height.
+        // x^2 over the variance after the number of steps to this height.
         let variances = counted
             .iter()
             .map(|place| place.x * place.x / (across * across * place.z / up));
@@ -95,7 +95,7 @@ impl Family for SpotFlow {
 }
 
 impl SpotFlow {
-    /// Centres a diameter apart, layer by layer from the floor.
+    /// Centres one diameter apart, layer by layer from the floor.
     fn lattice(&self) -> Vec<Vector> {
         let [rows, columns] = self.sides.map(|it| it as usize);
         let place = |sphere: usize| {
@@ -106,11 +106,11 @@ impl SpotFlow {
         (0..self.spheres).map(place).collect()
     }
 
-    /// Spheres that sink through a layer per second, over what spots carry, lambda n V_s / w with
+    /// Spheres that sink through a layer per second, over the flux of spots, lambda n V_s / w with
     /// the number density n of the spheres and the volume V_s of a spot; and the second moment of
-    /// their displacements along x over that of the walk and the ball of a spot,
-    /// (z / dz) dx^2 + r_s^2 / 5.
-    fn flow(&self, simulation: &Simulation, before: &[Option<Vector>], time: f64) -> [f64; 2] {
+    /// their displacements along x over the value from the walk and the ball of a spot, (z / dz)
+    /// dx^2 + r_s^2 / 5.
+    fn flow(&self, simulation: &SpotSimulation, before: &[Option<Vector>], time: f64) -> [f64; 2] {
         let parameters = simulation.parameters();
         let [low, high] = LAYER;
         let (mut sum, mut moment, mut middle) = (0.0, 0.0, 0.0);
@@ -143,7 +143,7 @@ impl SpotFlow {
         Parameters {
             half_width: 0.5 * self.sides[0],
             half_depth: 0.5 * self.sides[1],
-            orifice: Orifice::Circle { radius: 4.0 },
+            orifice: SpotOpening::Circle { radius: 4.0 },
             step: [across, across, up],
             insertion_rate: self.rates[0],
             move_rate: self.rates[1],

@@ -1,12 +1,12 @@
-//! Spheres at rest upon each other.
+//! A column of spheres at rest.
 
 use super::bench::{Bench, Material, at, downward, floor, unguarded};
 use super::{Family, Measured, VerifyError, named, numbered};
-use crate::dem::Simulation;
+use crate::dem::DemSimulation;
 use crate::scene::{DemScene, Effects, Scene};
 use serde::Deserialize;
 
-/// A column of equal spheres on the floor, let go where they just touch.
+/// A column of equal spheres on the floor, released where they just touch.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Stack {
@@ -44,7 +44,7 @@ impl Family for Stack {
             },
             ..bench.scene(self.material.density, self.radius, spheres, self.dt)
         };
-        let mut simulation = Simulation::new(&scene)?;
+        let mut simulation = DemSimulation::new(&scene)?;
         bench.advance_for(&mut simulation, self.duration, self.dt)?;
         let particles = simulation.particles();
         let z = |i: usize| particles.position[i].z;

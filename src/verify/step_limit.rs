@@ -6,8 +6,8 @@ use crate::dem::timestep;
 use crate::scene::{DemScene, Scene};
 use serde::Deserialize;
 
-/// What limits the time step of two spheres that collide; nothing is simulated. The quantities bear
-/// the names of [`timestep::limits`].
+/// Limits of the time step for two colliding spheres; nothing is simulated. The quantities have the
+/// names of [`timestep::limits`].
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StepLimit {

@@ -1,15 +1,15 @@
-//! A sphere is pressed on the floor or on another sphere, and moved to and fro along it.
+//! A sphere is pressed on the floor or on another sphere, and moved back and forth along it.
 
 use super::bench::{AnyMaterial, Bench, at, floor, reduced, unguarded};
 use super::{Family, Measured, VerifyError, named};
-use crate::dem::Simulation;
+use crate::dem::DemSimulation;
 use crate::particles::vector::Vector;
 use crate::scene::{DemScene, Driven, Friction, Scene};
 use serde::Deserialize;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-/// A sphere that a path swings along what it is pressed on, without rolling: along the floor at a
-/// constant overlap, or along a second sphere whose path changes the overlap.
+/// A driven sphere oscillates along its partner without rolling: along the floor at a constant
+/// overlap, or along a second sphere whose path changes the overlap.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TangentialLoop {
@@ -19,10 +19,10 @@ pub struct TangentialLoop {
     friction: Friction,
     /// Normal force at the start (N).
     normal_force: f64,
-    /// Amplitude of the swing (m).
+    /// Amplitude of the oscillation (m).
     amplitude: f64,
-    /// Amplitude of the overlap, a quarter of a cycle ahead of the swing and, in a second run,
-    /// behind it (m).
+    /// Amplitude of the overlap, a quarter of a cycle ahead of the oscillation and, in a second
+    /// run, behind it (m).
     #[serde(default)]
     breathing: Option<f64>,
     /// Duration of a cycle (s).
@@ -36,7 +36,7 @@ fn thousands() -> u32 {
     20_000
 }
 
-/// Cycles of a swing with a changing overlap.
+/// Cycles of an oscillation with a changing overlap.
 const CYCLES: u32 = 3;
 
 impl Family for TangentialLoop {
@@ -92,10 +92,10 @@ impl TangentialLoop {
             dem: self.laws(vec![self.path(0, [self.amplitude, 0.0, 0.0], 0.0)]),
             ..bench.scene(self.material.density(), self.radius, vec![place], dt)
         };
-        let mut simulation = Simulation::new(&scene)?;
+        let mut simulation = DemSimulation::new(&scene)?;
         bench.advance(&mut simulation, u64::from(self.steps))?;
         let age = bench.age_of_forces() * dt;
-        let moment = |simulation: &Simulation| {
+        let moment = |simulation: &DemSimulation| {
             let particles = simulation.particles();
             let place = particles.position[0] - particles.velocity[0] * age;
             (place.x, particles.force[0].x)
@@ -112,8 +112,8 @@ impl TangentialLoop {
         Ok(named([("lost_energy", lost), ("largest_force", largest)]))
     }
 
-    /// The most energy (J) that the tangential force has given off by any moment, if the swing
-    /// begins with a contact that holds none. The overlap lags by that phase (rad).
+    /// The most energy (J) that the tangential force has released by any moment, if the oscillation
+    /// begins with an unloaded contact. The overlap lags by this phase (rad).
     fn gain(&self, breathing: f64, lag: f64, bench: &mut Bench<'_>) -> Result<f64, VerifyError> {
         let dt = self.dt();
         let effective_radius = reduced(self.radius, self.radius);
@@ -126,9 +126,9 @@ impl TangentialLoop {
             ]),
             ..bench.scene(self.material.density(), self.radius, places, dt)
         };
-        let mut simulation = Simulation::new(&scene)?;
+        let mut simulation = DemSimulation::new(&scene)?;
         let age = bench.age_of_forces() * dt;
-        let moment = |simulation: &Simulation| {
+        let moment = |simulation: &DemSimulation| {
             let particles = simulation.particles();
             let place = |i: usize| particles.position[i] - particles.velocity[i] * age;
             (place(0) - place(1), particles.force[0])

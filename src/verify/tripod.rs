@@ -2,7 +2,7 @@
 
 use super::bench::{Bench, Material, at, downward, unguarded};
 use super::{Family, Measured, VerifyError, named};
-use crate::dem::Simulation;
+use crate::dem::DemSimulation;
 use crate::forces::contact::{HertzLaw, NormalLaw};
 use crate::particles::vector::Vector;
 use crate::scene::{DemScene, Effects, Scene, Tank};
@@ -61,7 +61,7 @@ impl Family for Tripod {
             },
             ..bench.scene(self.material.density, self.radius, spheres, self.dt)
         };
-        let mut simulation = Simulation::new(&scene)?;
+        let mut simulation = DemSimulation::new(&scene)?;
         bench.advance_for(&mut simulation, self.duration, self.dt)?;
         let particles = simulation.particles();
         let law = HertzLaw::new(

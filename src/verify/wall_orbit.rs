@@ -1,13 +1,13 @@
-//! A sphere that turning air drives along the cylinder.
+//! A sphere that rotating air drives along the cylinder.
 
 use super::bench::{Bench, Material, at, unguarded};
 use super::{Family, Measured, VerifyError, named};
-use crate::dem::Simulation;
+use crate::dem::DemSimulation;
 use crate::particles::vector::Vector;
 use crate::scene::{DemScene, Drag, DragForm, DragLaw, Effects, Scene, Swirl, Tank};
 use serde::Deserialize;
 
-/// A sphere at the frictionless cylinder, brought by turning air to the air's rotation.
+/// A sphere at the frictionless cylinder that rotating air accelerates to its own rotation.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct WallOrbit {
@@ -22,7 +22,7 @@ pub struct WallOrbit {
     drag_rate: f64,
     /// Time step (s).
     dt: f64,
-    /// Duration (s), long enough to take up the air's rotation.
+    /// Duration (s), long enough to reach the air's rotation.
     duration: f64,
 }
 
@@ -60,7 +60,7 @@ impl Family for WallOrbit {
                 self.dt,
             )
         };
-        let mut simulation = Simulation::new(&scene)?;
+        let mut simulation = DemSimulation::new(&scene)?;
         bench.advance_for(&mut simulation, self.duration, self.dt)?;
         let particles = simulation.particles();
         let (place, velocity) = (particles.position[0], particles.velocity[0]);

@@ -1,7 +1,7 @@
 //! What a scene does not name takes no memory: every effect has arrays of its own, and without it
 //! they are not there.
 
-use phase::dem::Simulation;
+use phase::dem::DemSimulation;
 use phase::scene::Scene;
 
 /// Spheres: so many that their arrays outweigh everything else.
@@ -20,7 +20,7 @@ fn bytes_per_sphere(tables: &str) -> f64 {
     let scene: Scene = toml::from_str(&format!("{BARE}\n{tables}")).unwrap();
     assert_eq!(scene.problems(), [], "{tables}");
     let measured = allocation_counter::measure(|| {
-        let mut simulation = Simulation::new(&scene).unwrap();
+        let mut simulation = DemSimulation::new(&scene).unwrap();
         simulation.advance(2).unwrap();
     });
     measured.bytes_max as f64 / COUNT as f64

@@ -1,7 +1,7 @@
 //! The same input gives the same bits, a broken guard names its place, and nothing panics.
 
 use crate::scenes::{INTEGRATORS, State, cluster, frictions, state, tank, water};
-use phase::dem::{Simulation, timestep};
+use phase::dem::{DemSimulation, timestep};
 use phase::record::{Guard, Instability};
 use phase::scene::{Coulomb, Friction, Integrator, Mindlin, Scene, Spin, StartSphere};
 use proptest::prelude::*;
@@ -15,7 +15,7 @@ fn tanks() -> impl Iterator<Item = Scene> {
 }
 
 fn run(scene: &Scene, steps: u64) -> State {
-    let mut simulation = Simulation::new(scene).unwrap();
+    let mut simulation = DemSimulation::new(scene).unwrap();
     simulation.advance(steps).unwrap();
     state(&simulation)
 }
@@ -35,7 +35,7 @@ fn bits_do_not_depend_on_the_neighbour_list() {
         // do not; seldom; never again, with all pairs in it.
         let (always, once) = (STEPS + 1, 1);
         for (skin, most_builds) in [(0.0, always), (0.05, STEPS), (2.0, STEPS / 2), (1e3, once)] {
-            let mut simulation = Simulation::with_skin(&scene, skin).unwrap();
+            let mut simulation = DemSimulation::with_skin(&scene, skin).unwrap();
             simulation.advance(STEPS).unwrap();
             let list = simulation.list().unwrap();
             assert!(list.builds() <= most_builds, "{} builds", list.builds());
@@ -55,7 +55,7 @@ fn bits_do_not_depend_on_the_neighbour_list() {
 #[test]
 fn bits_do_not_depend_on_being_watched() {
     for scene in tanks() {
-        let mut watched = Simulation::new(&scene).unwrap();
+        let mut watched = DemSimulation::new(&scene).unwrap();
         for step in 0..STEPS {
             if step % 3 == 0 {
                 watched.elastic_energy();
@@ -77,16 +77,16 @@ fn bits_do_not_depend_on_being_watched() {
 /// latest.
 #[test]
 fn latest_forces_do_not_depend_on_how_steps_are_asked_for() {
-    let forces = |simulation: &Simulation| {
+    let forces = |simulation: &DemSimulation| {
         let particles = simulation.particles();
         let all = particles.force.iter().chain(&particles.torque);
         all.map(|it| [it.x, it.y, it.z].map(f64::to_bits))
             .collect::<Vec<_>>()
     };
     for scene in tanks() {
-        let mut at_once = Simulation::new(&scene).unwrap();
+        let mut at_once = DemSimulation::new(&scene).unwrap();
         at_once.advance(60).unwrap();
-        let mut one_by_one = Simulation::new(&scene).unwrap();
+        let mut one_by_one = DemSimulation::new(&scene).unwrap();
         (0..60).for_each(|_| one_by_one.advance(1).unwrap());
         assert!(forces(&at_once).iter().flatten().any(|bits| *bits != 0));
         assert_eq!(forces(&at_once), forces(&one_by_one));
@@ -96,7 +96,7 @@ fn latest_forces_do_not_depend_on_how_steps_are_asked_for() {
 #[test]
 fn bits_do_not_depend_on_the_instruction_set() {
     for scene in tanks() {
-        let mut plain = Simulation::new(&scene).unwrap();
+        let mut plain = DemSimulation::new(&scene).unwrap();
         plain.use_baseline_instructions();
         plain.advance(STEPS).unwrap();
         assert!(
@@ -145,7 +145,7 @@ fn broken_guards(scene: &Scene) -> [Instability; INTEGRATORS.len()] {
     INTEGRATORS.map(|integrator| {
         let mut scene = scene.clone();
         scene.time.integrator = integrator;
-        let mut simulation = Simulation::new(&scene).unwrap();
+        let mut simulation = DemSimulation::new(&scene).unwrap();
         simulation.advance(10_000).unwrap_err()
     })
 }
@@ -208,13 +208,13 @@ fn who_grows_too_fast_is_named_with_the_same_step_however_a_run_is_cut() {
         scene.dem.effects.gravity = Some(toml::from_str("acceleration = 2e4").unwrap());
         for integrator in INTEGRATORS {
             scene.time.integrator = integrator;
-            let mut simulation = Simulation::new(&scene).unwrap();
+            let mut simulation = DemSimulation::new(&scene).unwrap();
             let whole = simulation.advance(1000).unwrap_err();
             // A state of an earlier moment would pass for a sound one.
             assert_eq!(simulation.step(), whole.step);
             assert_eq!(whole.guard, Guard::Displacement, "{whole}");
             for length in [1, 7] {
-                let mut simulation = Simulation::new(&scene).unwrap();
+                let mut simulation = DemSimulation::new(&scene).unwrap();
                 let broken = (0..1000).find_map(|_| simulation.advance(length).err());
                 assert_eq!(broken.as_ref(), Some(&whole), "cut after {length} steps");
                 assert_eq!(simulation.step(), whole.step);
@@ -284,7 +284,7 @@ fn spin_damping_without_friction_does_nothing() {
 #[test]
 fn sound_scenes_break_no_guard() {
     for scene in tanks() {
-        Simulation::new(&scene).unwrap().advance(STEPS).unwrap();
+        DemSimulation::new(&scene).unwrap().advance(STEPS).unwrap();
     }
 }
 
@@ -399,7 +399,7 @@ proptest! {
 
     #[test]
     fn odd_scenes_run_or_name_what_broke(scene in odd_scene()) {
-        let mut simulation = Simulation::new(&scene).unwrap();
+        let mut simulation = DemSimulation::new(&scene).unwrap();
         for _ in 0..20 {
             if let Err(broken) = simulation.advance(1) {
                 prop_assert!(broken.sphere < scene.spheres.count);
@@ -435,7 +435,7 @@ proptest! {
             speed,
             spin: 0.0,
         };
-        if let Ok(mut simulation) = Simulation::new(&scene) {
+        if let Ok(mut simulation) = DemSimulation::new(&scene) {
             let _ = simulation.advance(10);
         }
     }

@@ -2,8 +2,8 @@
 
 use crate::large::large;
 use crate::scenes::state;
-use phase::dem::Simulation;
-use phase::dem::timestep::Standing;
+use phase::dem::DemSimulation;
+use phase::dem::timestep::StepMargin;
 use phase::particles::vector::Vector;
 use phase::record::MilestoneKind;
 use phase::scene::{Integrator, Scene};
@@ -47,7 +47,7 @@ fn path(time: f64) -> Vector {
 #[test]
 fn a_driven_sphere_keeps_to_its_path_and_pushes_others() {
     for integrator in Integrator::ALL {
-        let mut simulation = Simulation::new(&row(integrator)).unwrap();
+        let mut simulation = DemSimulation::new(&row(integrator)).unwrap();
         for steps in [1, 99, 400, 2500] {
             simulation.advance(steps).unwrap();
             let off = simulation.particles().position[0] - path(simulation.time());
@@ -69,7 +69,7 @@ fn it_pushes_as_a_heavy_sphere_does() {
     scene.dem.driven[0].amplitude = [0.0; 3];
     scene.dem.driven[0].velocity = [0.5, 0.0, 0.0];
     let pushed = |scene: &Scene| {
-        let mut simulation = Simulation::new(scene).unwrap();
+        let mut simulation = DemSimulation::new(scene).unwrap();
         simulation.advance(2000).unwrap();
         simulation.particles().velocity[1]
     };
@@ -120,7 +120,7 @@ fn a_driven_sphere_may_touch_the_floor_and_another_driven_one() {
             );
             let mut scene: Scene = toml::from_str(&text).unwrap();
             scene.time.integrator = integrator;
-            let mut simulation = Simulation::new(&scene).unwrap();
+            let mut simulation = DemSimulation::new(&scene).unwrap();
             simulation.advance(1000).unwrap();
             let particles = simulation.particles();
             assert!((particles.position[1].x - 1.004).abs() < 1e-9);
@@ -167,16 +167,16 @@ fn row_on_the_floor(places: &[f64]) -> String {
 
 /// Runs a scene to its end, saved and restored at a tenth, and with other integrators. Returns the
 /// simulations at their ends.
-fn to_the_end(scene: &Scene) -> Vec<(Integrator, Simulation)> {
+fn to_the_end(scene: &Scene) -> Vec<(Integrator, DemSimulation)> {
     let run = |integrator: Integrator| {
         let mut scene = scene.clone();
         scene.time.integrator = integrator;
-        let mut whole = Simulation::new(&scene).unwrap();
-        let mut part = Simulation::new(&scene).unwrap();
+        let mut whole = DemSimulation::new(&scene).unwrap();
+        let mut part = DemSimulation::new(&scene).unwrap();
         for tenth in 0..10 {
             whole.advance(10_000).unwrap();
             part.advance(10_000).unwrap();
-            let mut next = Simulation::new(&scene).unwrap();
+            let mut next = DemSimulation::new(&scene).unwrap();
             next.restore(part.state().into_owned()).unwrap();
             part = next;
             assert_eq!(
@@ -195,7 +195,7 @@ fn to_the_end(scene: &Scene) -> Vec<(Integrator, Simulation)> {
 }
 
 /// How far the sphere of a number is from its path, which began at a place and a time (s).
-fn off_its_path(simulation: &Simulation, number: u32, start: Vector, begun: f64) -> f64 {
+fn off_its_path(simulation: &DemSimulation, number: u32, start: Vector, begun: f64) -> f64 {
     let particles = simulation.particles();
     let numbers = &particles.number[particles.fixed..];
     let index = particles.fixed + numbers.iter().position(|it| *it == number).unwrap();
@@ -204,7 +204,7 @@ fn off_its_path(simulation: &Simulation, number: u32, start: Vector, begun: f64)
     (particles.position[index] - start - Vector::new(0.0, swing, 0.0)).norm()
 }
 
-fn kinds(simulation: &Simulation) -> Vec<MilestoneKind> {
+fn kinds(simulation: &DemSimulation) -> Vec<MilestoneKind> {
     simulation.milestones().iter().map(|it| it.kind).collect()
 }
 
@@ -288,15 +288,15 @@ fn a_driven_sphere_may_be_fed() {
     assert_eq!(scene.problems(), []);
     for integrator in Integrator::ALL {
         scene.time.integrator = integrator;
-        let mut simulation = Simulation::new(&scene).unwrap();
+        let mut simulation = DemSimulation::new(&scene).unwrap();
         simulation.advance(22_500).unwrap();
         assert_eq!(simulation.particles().len(), 5, "{integrator:?}");
         let start = Vector::new(0.1 * (0.45 - 0.2), 0.0, 0.03);
         let off = off_its_path(&simulation, 2, start, 0.2);
         assert!(off < 1e-12, "{integrator:?}: {off}");
-        let mut part = Simulation::new(&scene).unwrap();
+        let mut part = DemSimulation::new(&scene).unwrap();
         part.advance(12_345).unwrap();
-        let mut next = Simulation::new(&scene).unwrap();
+        let mut next = DemSimulation::new(&scene).unwrap();
         next.restore(part.state().into_owned()).unwrap();
         next.advance(22_500 - 12_345).unwrap();
         assert_eq!(
@@ -317,11 +317,11 @@ fn a_driven_sphere_is_found_among_many() {
         scene.dem.driven = vec![toml::from_str(path).unwrap()];
         let start = phase::start::place(&scene).unwrap().position[4000];
         let run = |threads: usize, restored: bool| {
-            let mut simulation = Simulation::new(&scene).unwrap();
+            let mut simulation = DemSimulation::new(&scene).unwrap();
             simulation.use_threads(threads).unwrap();
             simulation.advance(300).unwrap();
             if restored {
-                let mut next = Simulation::new(&scene).unwrap();
+                let mut next = DemSimulation::new(&scene).unwrap();
                 next.restore(simulation.state().into_owned()).unwrap();
                 simulation = next;
             }
@@ -371,7 +371,7 @@ fn a_ball_bounces_on_a_sphere_that_shakes() {
     for integrator in Integrator::ALL {
         let scene = shaken(integrator, "'auto'");
         assert!(scene.time.steps_per_frame() > 60, "{:e}", scene.time.dt);
-        let mut simulation = Simulation::new(&scene).unwrap();
+        let mut simulation = DemSimulation::new(&scene).unwrap();
         let heights = (0..scene.time.frames()).map(|_| {
             simulation.advance(scene.time.steps_per_frame()).unwrap();
             simulation.particles().position[1].z - 0.02
@@ -394,7 +394,7 @@ fn a_step_of_a_period_is_warned_of() {
     for integrator in Integrator::ALL {
         let mut scene = shaken(integrator, "1e-4");
         let warns = |scene: &Scene| {
-            let all = Standing::all(scene);
+            let all = StepMargin::all(scene);
             let standing = all
                 .iter()
                 .find(|it| it.limit.name == "driven period")

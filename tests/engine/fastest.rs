@@ -1,7 +1,7 @@
 //! The fastest speed that a scene lets expect, from which limits of the time step follow.
 
 use crate::support::Workplace;
-use phase::dem::Simulation;
+use phase::dem::DemSimulation;
 use phase::dem::timestep::{fastest_impact, largest_stable, unbounded_speed};
 use phase::document::LoadError;
 use phase::scene::{Integrator, Scene};
@@ -41,7 +41,7 @@ fn a_sphere_reaches_the_far_wall_down_an_incline() {
     for integrator in Integrator::ALL {
         let scene = scene(&text, integrator);
         close(fastest_impact(&scene), 14.87, 1e-3);
-        let mut simulation = Simulation::new(&scene).unwrap();
+        let mut simulation = DemSimulation::new(&scene).unwrap();
         let mut fastest: f64 = 0.0;
         for _ in 0..scene.time.frames() {
             let advanced = simulation.advance(scene.time.steps_per_frame());
@@ -94,7 +94,7 @@ fn a_bead_settles_at_its_terminal_speed() {
                 let scene = scene(&text, integrator);
                 assert_eq!(unbounded_speed(&scene), None);
                 close(fastest_impact(&scene), terminal, 1e-4);
-                let mut simulation = Simulation::new(&scene).unwrap();
+                let mut simulation = DemSimulation::new(&scene).unwrap();
                 let steps = scene.time.frames() * scene.time.steps_per_frame();
                 simulation.advance(steps).unwrap();
                 close(-simulation.particles().velocity[0].z, terminal, 1e-4);
@@ -123,7 +123,7 @@ fn half_the_limit_holds_for_a_sphere_that_slides_into_a_wall() {
             );
             let mut scene = scene(&text, integrator);
             scene.time.dt = 0.49 * largest_stable(&scene).unwrap().seconds;
-            let mut simulation = Simulation::new(&scene).unwrap();
+            let mut simulation = DemSimulation::new(&scene).unwrap();
             let (mut fastest, mut left): (f64, f64) = (0.0, 0.0);
             // Energy counts, as gravity acts on the way to the wall and back.
             let along = 9.81 * libm::sin(1.4);
@@ -515,7 +515,7 @@ fn auto_keeps_below_the_displacement_guard_without_contacts() {
         .replace("duration = 1.0", "duration = 30.0");
     for integrator in Integrator::ALL {
         let scene = scene(&format!("{text}time.dt = 'auto'"), integrator);
-        let mut simulation = Simulation::new(&scene).unwrap();
+        let mut simulation = DemSimulation::new(&scene).unwrap();
         let steps = scene.time.frames() * scene.time.steps_per_frame();
         simulation.advance(steps).unwrap();
         close(-simulation.particles().velocity[0].z, 26.18, 2e-2);

@@ -1,6 +1,6 @@
 //! What the adaptive integrator does beyond the cases of the verification tables.
 
-use phase::dem::Simulation;
+use phase::dem::DemSimulation;
 use phase::dem::timestep::Impact;
 use phase::scene::{Integrator, Scene, Shape, Start, StartSphere};
 
@@ -38,18 +38,18 @@ fn sphere(x: f64, speed: f64) -> StartSphere {
     }
 }
 
-fn speeds(simulation: &Simulation) -> Vec<f64> {
+fn speeds(simulation: &DemSimulation) -> Vec<f64> {
     let velocities = &simulation.particles().velocity;
     velocities.iter().map(|velocity| velocity.x).collect()
 }
 
-fn momentum(simulation: &Simulation) -> f64 {
+fn momentum(simulation: &DemSimulation) -> f64 {
     let particles = simulation.particles();
     let momenta = particles.velocity.iter().zip(&particles.mass);
     momenta.map(|(velocity, mass)| velocity.x * mass).sum()
 }
 
-fn kinetic(simulation: &Simulation) -> f64 {
+fn kinetic(simulation: &DemSimulation) -> f64 {
     let particles = simulation.particles();
     let energies = particles.velocity.iter().zip(&particles.mass);
     energies
@@ -68,7 +68,7 @@ fn an_impact_within_a_step_is_resolved() {
     for phase in 0..16 {
         let gap = f64::from(phase) / 16.0 * dt;
         let pair = vec![sphere(0.0, 0.5), sphere(0.008 + gap, -0.5)];
-        let mut simulation = Simulation::new(&steel(pair, 1e-6, dt)).unwrap();
+        let mut simulation = DemSimulation::new(&steel(pair, 1e-6, dt)).unwrap();
         simulation.advance(3).unwrap();
         let [left, right] = speeds(&simulation)[..] else {
             panic!("two spheres")
@@ -87,7 +87,7 @@ fn only_spheres_that_collide_take_sub_steps() {
         .map(|i| StartSphere::at([f64::from(i) * 0.02, 0.5, 0.0]))
         .collect();
     spheres.extend([sphere(0.0, 0.5), sphere(0.018, -0.5)]);
-    let mut simulation = Simulation::new(&steel(spheres, 0.0, dt)).unwrap();
+    let mut simulation = DemSimulation::new(&steel(spheres, 0.0, dt)).unwrap();
     simulation.advance(steps).unwrap();
     assert!(speeds(&simulation)[98] < -0.499);
     // 23 us of contact in a step of 1 ms, 27 sub-steps or more in each contact.
@@ -109,7 +109,7 @@ fn spheres_that_are_knocked_on_within_a_step_are_seen() {
             .collect();
         row[0].velocity[0] = 1.0;
         let dt = 1.2e-3;
-        let mut simulation = Simulation::new(&steel(row, 0.0, dt)).unwrap();
+        let mut simulation = DemSimulation::new(&steel(row, 0.0, dt)).unwrap();
         simulation.advance(3).unwrap();
         let speeds = speeds(&simulation);
         let (last, others) = speeds.split_last().unwrap();
@@ -133,7 +133,8 @@ fn a_sphere_that_is_knocked_far_is_seen() {
         ..sphere(0.0, 0.0)
     };
     let target = sphere(0.0051, 0.0);
-    let mut simulation = Simulation::new(&steel(vec![heavy, light, target], 0.0, 1.5e-4)).unwrap();
+    let mut simulation =
+        DemSimulation::new(&steel(vec![heavy, light, target], 0.0, 1.5e-4)).unwrap();
     let (before, start) = (momentum(&simulation), kinetic(&simulation));
     for _ in 0..10 {
         simulation.advance(1).unwrap();
@@ -149,7 +150,7 @@ fn a_sphere_that_is_knocked_far_is_seen() {
 #[test]
 fn a_fine_step_is_not_cut() {
     let pair = vec![sphere(0.0, 0.5), sphere(0.0081, -0.5)];
-    let mut simulation = Simulation::new(&steel(pair, 0.0, 1e-7)).unwrap();
+    let mut simulation = DemSimulation::new(&steel(pair, 0.0, 1e-7)).unwrap();
     simulation.advance(5_000).unwrap();
     assert_eq!(simulation.moves(), 2 * simulation.step());
     assert!(speeds(&simulation)[0] < -0.499);
@@ -171,7 +172,7 @@ fn a_pile_rests_at_large_steps() {
         floor: Some(0.0),
         ..phase::scene::Tank::default()
     });
-    let mut simulation = Simulation::new(&scene).unwrap();
+    let mut simulation = DemSimulation::new(&scene).unwrap();
     simulation.advance(300).unwrap();
     let particles = simulation.particles();
     assert!(
@@ -206,7 +207,7 @@ fn contacts_that_are_held_take_few_sub_steps() {
             floor: Some(0.0),
             ..phase::scene::Tank::default()
         });
-        let mut simulation = Simulation::new(&scene).unwrap();
+        let mut simulation = DemSimulation::new(&scene).unwrap();
         simulation
             .advance(if height > 0.0 { 1 } else { 300 })
             .unwrap();
@@ -233,7 +234,7 @@ fn adaptive_bits_depend_on_the_scene_alone() {
     let scene = steel(row(), 1e-6, 4e-4);
     assert_eq!(scene.time.integrator, Integrator::AdaptiveVerlet);
     let state = |skin: f64, cuts: u64| {
-        let mut simulation = Simulation::with_skin(&scene, skin).unwrap();
+        let mut simulation = DemSimulation::with_skin(&scene, skin).unwrap();
         for _ in 0..cuts {
             simulation.advance(40 / cuts).unwrap();
             simulation.elastic_energy();
@@ -259,7 +260,7 @@ fn without_a_contact_law_spheres_pass_through_walls() {
         floor: Some(0.1),
         ..phase::scene::Tank::default()
     });
-    let mut simulation = Simulation::new(&scene).unwrap();
+    let mut simulation = DemSimulation::new(&scene).unwrap();
     simulation.advance(150).unwrap();
     assert_eq!(speeds(&simulation), [0.5, -0.5]);
     assert!((simulation.particles().position[0].x - 0.075).abs() < 1e-12);
@@ -270,7 +271,7 @@ fn without_a_contact_law_spheres_pass_through_walls() {
 fn compare(scene: &Scene, dt: f64, time: f64) -> Vec<f64> {
     let mut scene = scene.clone();
     scene.time.dt = dt;
-    let mut simulation = Simulation::new(&scene).unwrap();
+    let mut simulation = DemSimulation::new(&scene).unwrap();
     simulation.advance((time / dt).round() as u64).unwrap();
     speeds(&simulation)
 }

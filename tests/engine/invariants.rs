@@ -4,7 +4,7 @@ use crate::scenes::{
     INTEGRATORS, State, cluster, converging_spheres, damped, energy, frictions, momentum_is_kept,
     state, tank,
 };
-use phase::dem::Simulation;
+use phase::dem::DemSimulation;
 use phase::particles::vector::Vector;
 use phase::scene::{
     Contact, Coulomb, DragForm, Friction, Hertz, Integrator, Mindlin, Scene, StartSphere, Tank,
@@ -38,7 +38,7 @@ proptest! {
 
     #[test]
     fn elastic_spheres_keep_their_energy(spheres in converging_spheres()) {
-        let mut simulation = Simulation::new(&cluster(spheres, None, 1e-6)).unwrap();
+        let mut simulation = DemSimulation::new(&cluster(spheres, None, 1e-6)).unwrap();
         let before = energy(&mut simulation, 0.0);
         for _ in 0..50 {
             simulation.advance(300).unwrap();
@@ -54,7 +54,7 @@ proptest! {
         dissipation in 0.0..3e-3,
     ) {
         let scene = damped(cluster(spheres, friction, 4e-6), dissipation);
-        let mut simulation = Simulation::new(&scene).unwrap();
+        let mut simulation = DemSimulation::new(&scene).unwrap();
         let before = energy(&mut simulation, 0.0);
         for _ in 0..50 {
             simulation.advance(100).unwrap();
@@ -96,7 +96,7 @@ proptest! {
         if let Some(Contact::Hertz(Hertz { poisson_ratio: ratio, .. })) = &mut scene.dem.contact {
             *ratio = poisson_ratio;
         }
-        let mut simulation = Simulation::new(&scene).unwrap();
+        let mut simulation = DemSimulation::new(&scene).unwrap();
         let before = energy(&mut simulation, 0.0);
         simulation.advance(12_000).unwrap();
         let after = energy(&mut simulation, 0.0);
@@ -113,7 +113,7 @@ fn a_damped_pile_under_gravity_loses_energy_from_frame_to_frame() {
             scene.dem.effects.swirl,
             scene.dem.effects.updraught,
         ) = (None, None, None);
-        let mut simulation = Simulation::new(&scene).unwrap();
+        let mut simulation = DemSimulation::new(&scene).unwrap();
         let first = energy(&mut simulation, 9.8);
         let mut last = first;
         for _ in 0..200 {
@@ -136,7 +136,7 @@ fn going_on(scene: &Scene, from: &State, radius: &[f64]) -> Scene {
 }
 
 fn run(scene: &Scene, steps: u64) -> State {
-    let mut simulation = Simulation::new(scene).unwrap();
+    let mut simulation = DemSimulation::new(scene).unwrap();
     simulation.advance(steps).unwrap();
     state(&simulation)
 }
@@ -146,7 +146,7 @@ fn tanks() -> impl Iterator<Item = (Scene, State, Vec<f64>)> {
     let laws = frictions().into_iter();
     let scenes = laws.flat_map(|law| INTEGRATORS.map(|integrator| tank(law.clone(), integrator)));
     scenes.map(|scene| {
-        let simulation = Simulation::new(&scene).unwrap();
+        let simulation = DemSimulation::new(&scene).unwrap();
         let radius = simulation.particles().radius.clone();
         (scene, state(&simulation), radius)
     })
@@ -216,7 +216,7 @@ proptest! {
     ) {
         let mut scene = damped(cluster(spheres, friction, 2e-5), dissipation);
         scene.time.integrator = integrator;
-        let simulation = Simulation::new(&scene).unwrap();
+        let simulation = DemSimulation::new(&scene).unwrap();
         let (start, radius) = (state(&simulation), simulation.particles().radius.clone());
         let end = run(&scene, 1500);
         let check = |other: &Scene, expected: &State, what: &str| {

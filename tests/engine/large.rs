@@ -4,7 +4,7 @@
 
 use crate::scenes::{INTEGRATORS, tank};
 use crate::support::Workplace;
-use phase::dem::Simulation;
+use phase::dem::DemSimulation;
 use phase::dem::order::MANY;
 use phase::record::Guard;
 use phase::scene::{Friction, Integrator, Mindlin, Radii, Scene, Start, StartSphere};
@@ -41,7 +41,7 @@ fn mindlin() -> Option<Friction> {
 }
 
 /// Places, velocities and spins in the order of the scene.
-fn places(simulation: &mut Simulation) -> Vec<[f64; 9]> {
+fn places(simulation: &mut DemSimulation) -> Vec<[f64; 9]> {
     let frame = simulation.frame();
     let none = vec![0.0; frame.count()];
     let spin = frame.spin.unwrap_or([&none; 3]);
@@ -52,14 +52,14 @@ fn places(simulation: &mut Simulation) -> Vec<[f64; 9]> {
     (0..frame.count()).map(of).collect()
 }
 
-fn bits(simulation: &mut Simulation) -> Vec<[u64; 9]> {
+fn bits(simulation: &mut DemSimulation) -> Vec<[u64; 9]> {
     let places = places(simulation).into_iter();
     places.map(|place| place.map(f64::to_bits)).collect()
 }
 
 /// The scene with its random start written out.
 fn listed(mut scene: Scene) -> Scene {
-    let mut simulation = Simulation::new(&scene).unwrap();
+    let mut simulation = DemSimulation::new(&scene).unwrap();
     let radius = simulation.radius().to_vec();
     let spheres = places(&mut simulation).into_iter().zip(radius);
     let triple = |place: &[f64], at: usize| [place[at], place[at + 1], place[at + 2]];
@@ -75,7 +75,7 @@ fn listed(mut scene: Scene) -> Scene {
 
 #[test]
 fn frames_are_in_the_order_of_the_scene() {
-    let mut simulation = Simulation::new(&large(mindlin(), Integrator::VelocityVerlet)).unwrap();
+    let mut simulation = DemSimulation::new(&large(mindlin(), Integrator::VelocityVerlet)).unwrap();
     let mut before = places(&mut simulation);
     let radius = simulation.radius().to_vec();
     for _ in 0..STEPS / 10 {
@@ -113,7 +113,7 @@ fn frames_are_in_the_order_of_the_scene() {
 fn few_spheres_stay_in_the_order_of_the_scene() {
     let mut scene = large(None, Integrator::SymplecticEuler);
     scene.spheres.count = MANY - 1;
-    let mut simulation = Simulation::new(&scene).unwrap();
+    let mut simulation = DemSimulation::new(&scene).unwrap();
     simulation.advance(1).unwrap();
     assert!(simulation.particles().number.is_empty());
 }
@@ -128,19 +128,19 @@ fn an_interrupted_run_goes_on_with_the_same_bits() {
     {
         let mut scene = large(mindlin(), integrator);
         scene.output.ledger = ledger;
-        let mut whole = Simulation::new(&scene).unwrap();
+        let mut whole = DemSimulation::new(&scene).unwrap();
         whole.advance(STEPS).unwrap();
-        let mut latest = Simulation::new(&scene).unwrap();
+        let mut latest = DemSimulation::new(&scene).unwrap();
         // At the moment of a sort, before one and after one.
         for step in [100, 250, 251, STEPS] {
             latest.advance(step - latest.step()).unwrap();
-            let mut next = Simulation::new(&scene).unwrap();
+            let mut next = DemSimulation::new(&scene).unwrap();
             next.restore(latest.state()).unwrap();
             assert_eq!(bits(&mut next), bits(&mut latest));
             latest = next;
         }
         assert!(bits(&mut latest) == bits(&mut whole), "{integrator:?}");
-        let work = |simulation: &mut Simulation| simulation.frame().ledger;
+        let work = |simulation: &mut DemSimulation| simulation.frame().ledger;
         assert_eq!(work(&mut latest), work(&mut whole), "{integrator:?}");
     }
 }
@@ -150,11 +150,11 @@ fn bits_do_not_depend_on_the_threads() {
     for integrator in INTEGRATORS {
         for friction in [None, mindlin()] {
             let scene = large(friction.clone(), integrator);
-            let mut one = Simulation::new(&scene).unwrap();
+            let mut one = DemSimulation::new(&scene).unwrap();
             one.advance(STEPS).unwrap();
             let expected = bits(&mut one);
             // Their number may change on the way.
-            let mut several = Simulation::new(&scene).unwrap();
+            let mut several = DemSimulation::new(&scene).unwrap();
             for (threads, end) in [(2, STEPS / 3), (3, STEPS / 2), (7, STEPS)] {
                 several.use_threads(threads).unwrap();
                 several.advance(end - several.step()).unwrap();
@@ -177,9 +177,9 @@ fn bits_do_not_depend_on_lists_or_on_being_watched() {
         tank(None, Integrator::VelocityVerlet).dem.effects.updraught,
     ] {
         scene.dem.effects.updraught = updraught;
-        let mut expected = Simulation::new(&scene).unwrap();
+        let mut expected = DemSimulation::new(&scene).unwrap();
         expected.advance(STEPS).unwrap();
-        let mut other = Simulation::with_skin(&scene, 0.05).unwrap();
+        let mut other = DemSimulation::with_skin(&scene, 0.05).unwrap();
         other.use_baseline_instructions();
         other.use_threads(2).unwrap();
         for _ in 0..STEPS {
@@ -193,11 +193,11 @@ fn bits_do_not_depend_on_lists_or_on_being_watched() {
 #[test]
 fn the_numbers_of_spheres_change_no_bit() {
     let mut scene = listed(large(mindlin(), Integrator::SynchronisedVerlet));
-    let mut one = Simulation::new(&scene).unwrap();
+    let mut one = DemSimulation::new(&scene).unwrap();
     one.advance(STEPS).unwrap();
     let spheres = scene.start.list_mut().unwrap();
     spheres.reverse();
-    let mut other = Simulation::new(&scene).unwrap();
+    let mut other = DemSimulation::new(&scene).unwrap();
     other.use_threads(2).unwrap();
     other.advance(STEPS).unwrap();
     let mut found = bits(&mut other);
@@ -211,7 +211,7 @@ fn a_broken_guard_names_the_sphere_of_the_scene() {
     let spheres = scene.start.list_mut().unwrap();
     spheres[1234].velocity = [1e3, 0.0, 0.0];
     for threads in [1, 2] {
-        let mut simulation = Simulation::new(&scene).unwrap();
+        let mut simulation = DemSimulation::new(&scene).unwrap();
         simulation.use_threads(threads).unwrap();
         let instability = simulation.advance(5).unwrap_err();
         assert_eq!(
@@ -223,7 +223,7 @@ fn a_broken_guard_names_the_sphere_of_the_scene() {
     spheres[1234] = spheres[321].clone();
     // What is left of the spheres does not depend on how they were moved either.
     let broken = [1, 2].map(|threads| {
-        let mut simulation = Simulation::new(&scene).unwrap();
+        let mut simulation = DemSimulation::new(&scene).unwrap();
         simulation.use_threads(threads).unwrap();
         let instability = simulation.advance(5).unwrap_err();
         assert_eq!(instability.guard, Guard::Overlap);
@@ -315,7 +315,7 @@ fn bits_do_not_depend_on_when_spheres_are_moved() {
         for lattice in [WIDE, NARROW, unlike, loose, smooth] {
             let scene = lattice.scene(integrator);
             let advanced = |threads: usize, at_once: u64| {
-                let mut simulation = Simulation::new(&scene).unwrap();
+                let mut simulation = DemSimulation::new(&scene).unwrap();
                 simulation.use_threads(threads).unwrap();
                 while simulation.step() < 60 {
                     simulation.advance(at_once).unwrap();
@@ -350,7 +350,7 @@ fn a_contact_too_deep_is_the_same_on_threads_that_move_their_own_spheres() {
         // Up from the floor, or down into the others.
         spheres[at].velocity = [0.0, 0.0, if at == 0 { 30.0 } else { -30.0 }];
         let broken = [1, 2, 3].map(|threads| {
-            let mut simulation = Simulation::new(&scene).unwrap();
+            let mut simulation = DemSimulation::new(&scene).unwrap();
             simulation.use_threads(threads).unwrap();
             let instability = simulation.advance(200).unwrap_err();
             assert_eq!(instability.guard, Guard::Overlap);

@@ -1,8 +1,8 @@
 //! Magnus lift turns velocities and makes no energy.
 
 use crate::ledger::{last, with_ledger};
-use phase::dem::Simulation;
-use phase::dem::timestep::Standing;
+use phase::dem::DemSimulation;
+use phase::dem::timestep::StepMargin;
 use phase::scene::{Integrator, Scene};
 use std::path::Path;
 
@@ -28,12 +28,12 @@ fn spinning(integrator: Integrator, tables: &str, dt: &str) -> Scene {
     Scene::from_toml(&text, Path::new("spinning.toml")).unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn speed(simulation: &Simulation) -> f64 {
+fn speed(simulation: &DemSimulation) -> f64 {
     simulation.particles().velocity[0].norm()
 }
 
-fn standing(scene: &Scene) -> Standing {
-    let mut all = Standing::all(scene).into_iter();
+fn standing(scene: &Scene) -> StepMargin {
+    let mut all = StepMargin::all(scene).into_iter();
     all.find(|it| it.limit.name == "Magnus lift").unwrap()
 }
 
@@ -43,7 +43,7 @@ fn standing(scene: &Scene) -> Standing {
 fn lift_keeps_the_speed() {
     for integrator in Integrator::ALL {
         let scene = spinning(integrator, "", "'auto'");
-        let mut simulation = Simulation::new(&scene).unwrap();
+        let mut simulation = DemSimulation::new(&scene).unwrap();
         let steps = scene.time.frames() * scene.time.steps_per_frame();
         for _ in 0..100 {
             simulation.advance(steps / 100).unwrap();

@@ -18,7 +18,12 @@ fn scenes(folder: &Path, found: &mut Vec<String>) {
         if path.is_dir() {
             scenes(&path, found);
         } else if path.extension().is_some_and(|end| end == "toml") {
-            found.push(path.to_str().unwrap().to_owned());
+            // Windows separates folders otherwise.
+            found.push(
+                path.to_str()
+                    .unwrap()
+                    .replace(std::path::MAIN_SEPARATOR, "/"),
+            );
         }
     }
 }

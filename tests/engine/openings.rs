@@ -2,7 +2,7 @@
 
 use crate::large::large;
 use crate::scenes::{INTEGRATORS, cluster, frictions};
-use phase::dem::Simulation;
+use phase::dem::DemSimulation;
 use phase::dem::order::MANY;
 use phase::record::Guard;
 use phase::scene::{Integrator, Scene, StartSphere, Tank};
@@ -39,7 +39,7 @@ fn file(place: [f64; 3], opening: &str, tables: &str) -> String {
 }
 
 /// Kinetic and gravitational energy of the only sphere (J), and its speed (m/s).
-fn energy(simulation: &mut Simulation) -> (f64, f64) {
+fn energy(simulation: &mut DemSimulation) -> (f64, f64) {
     let elastic = simulation.elastic_energy();
     let particles = simulation.particles();
     let squared = particles.velocity[0].norm_squared();
@@ -66,7 +66,7 @@ proptest! {
         for integrator in INTEGRATORS {
             let mut scene = falling(place, opening, "");
             scene.time.integrator = integrator;
-            let mut simulation = Simulation::new(&scene).unwrap();
+            let mut simulation = DemSimulation::new(&scene).unwrap();
             let (start, _) = energy(&mut simulation);
             for _ in 0..80 {
                 simulation.advance(1000).unwrap();
@@ -90,7 +90,7 @@ proptest! {
 #[test]
 fn over_the_opening_nothing_holds_a_sphere_and_beside_it_the_floor_does() {
     let fall = |place, opening| {
-        let mut simulation = Simulation::new(&falling(place, opening, "")).unwrap();
+        let mut simulation = DemSimulation::new(&falling(place, opening, "")).unwrap();
         simulation.advance(50_000).unwrap();
         simulation.particles().position[0].z
     };
@@ -115,7 +115,7 @@ fn those_who_fall_out_leave_below_the_floor_and_are_counted() {
     let mut scene = falling([0.0, 0.0, 2.0], ORIFICE, "");
     scene.dem.outlet = None;
     assert_eq!(scene.outlet_height(), Some(-1.0));
-    let mut simulation = Simulation::new(&scene).unwrap();
+    let mut simulation = DemSimulation::new(&scene).unwrap();
     // After sqrt(6) = 2.45.
     simulation.advance(24_000).unwrap();
     assert_eq!(simulation.counts().unwrap().discharged, 0);
@@ -130,7 +130,7 @@ fn those_who_fall_out_leave_below_the_floor_and_are_counted() {
 fn a_start_may_have_spheres_in_an_open_opening() {
     for opening in [ORIFICE, SLIT] {
         for place in [[3.0, 0.0, 0.0], [3.6, 0.0, -0.6], [4.2, 0.0, -0.6]] {
-            let mut simulation = Simulation::new(&falling(place, opening, "")).unwrap();
+            let mut simulation = DemSimulation::new(&falling(place, opening, "")).unwrap();
             simulation.advance(10_000).unwrap();
             let fallen = place[2] - simulation.particles().position[0].z;
             assert!((fallen - 0.5).abs() < 1e-3, "{place:?}: {fallen}");
@@ -151,7 +151,7 @@ fn a_door_closes_the_opening_until_it_opens() {
         let mut scene = falling([1.0, 0.0, 0.55], opening, "door.opens = 3.0");
         scene.time.integrator = integrator;
         scene.output.ledger = true;
-        let mut simulation = Simulation::new(&scene).unwrap();
+        let mut simulation = DemSimulation::new(&scene).unwrap();
         simulation.advance(30_000).unwrap();
         assert!(simulation.particles().position[0].z > 0.45);
         let before = simulation.milestones().to_vec();
@@ -172,7 +172,7 @@ fn a_door_closes_the_opening_until_it_opens() {
 fn a_sphere_that_is_pressed_through_the_floor_beside_the_opening_ends_the_run() {
     let mut scene = falling([6.0, 0.0, 20.0], ORIFICE, "");
     scene.spheres.density *= 2000.0;
-    let mut simulation = Simulation::new(&scene).unwrap();
+    let mut simulation = DemSimulation::new(&scene).unwrap();
     let instability = simulation.advance(80_000).unwrap_err();
     assert_eq!(
         (instability.guard, instability.sphere),
@@ -204,7 +204,7 @@ fn draining(integrator: Integrator, ledger: bool) -> Scene {
 }
 
 /// Numbers in the scene, positions and velocities of those that are in, as bits, by their numbers.
-fn bits(simulation: &Simulation) -> Vec<(u32, [u64; 6])> {
+fn bits(simulation: &DemSimulation) -> Vec<(u32, [u64; 6])> {
     let particles = simulation.particles();
     let of = |i: usize| {
         let (x, v) = (particles.position[i], particles.velocity[i]);
@@ -223,24 +223,24 @@ const STEPS: u64 = 700;
 fn many_spheres_that_leave_have_the_same_bits_on_any_threads_and_resumed() {
     for integrator in [Integrator::SymplecticEuler, Integrator::AdaptiveVerlet] {
         let scene = draining(integrator, integrator == Integrator::SymplecticEuler);
-        let mut one = Simulation::new(&scene).unwrap();
+        let mut one = DemSimulation::new(&scene).unwrap();
         one.advance(STEPS).unwrap();
         let gone = one.counts().unwrap().discharged;
         assert!((20..4000).contains(&gone), "{gone} left, {integrator:?}");
         // They stand in another order than that of the scene.
         let numbers = &one.particles().number;
         assert!(numbers.windows(2).any(|two| two[0] > two[1]));
-        let mut several = Simulation::new(&scene).unwrap();
+        let mut several = DemSimulation::new(&scene).unwrap();
         several.use_threads(3).unwrap();
         several.advance(STEPS).unwrap();
         assert!(
             bits(&several) == bits(&one),
             "three threads, {integrator:?}"
         );
-        let mut latest = Simulation::new(&scene).unwrap();
+        let mut latest = DemSimulation::new(&scene).unwrap();
         for step in [250, STEPS / 2 + 77, STEPS] {
             latest.advance(step - latest.step()).unwrap();
-            let mut next = Simulation::new(&scene).unwrap();
+            let mut next = DemSimulation::new(&scene).unwrap();
             next.restore(latest.state()).unwrap();
             next.use_threads(2).unwrap();
             latest = next;
@@ -253,7 +253,7 @@ fn many_spheres_that_leave_have_the_same_bits_on_any_threads_and_resumed() {
 #[test]
 fn frames_name_the_spheres_that_are_left() {
     let scene = draining(Integrator::SymplecticEuler, false);
-    let mut simulation = Simulation::new(&scene).unwrap();
+    let mut simulation = DemSimulation::new(&scene).unwrap();
     simulation.advance(STEPS).unwrap();
     let expected = bits(&simulation);
     let frame = simulation.frame();
@@ -287,7 +287,7 @@ fn many_discs_that_come_in_have_the_same_bits_on_two_threads() {
         MANY + 10
     ));
     let [one, two] = [1, 2].map(|threads| {
-        let mut simulation = Simulation::new(&scene).unwrap();
+        let mut simulation = DemSimulation::new(&scene).unwrap();
         simulation.use_threads(threads).unwrap();
         simulation.advance(4000).unwrap();
         simulation
@@ -330,7 +330,7 @@ fn the_floor_has_the_friction_of_the_walls() {
             ));
             scene.dem.friction = Some(friction.with_coefficient(mu));
             scene.tank.as_mut().unwrap().friction_coefficient = at_walls;
-            let mut simulation = Simulation::new(&scene).unwrap();
+            let mut simulation = DemSimulation::new(&scene).unwrap();
             // Half of the way: v = 1 - mu g t; and the end: 5/7.
             let half = 2.0 / (7.0 * 0.3 * 9.81) / 2.0;
             simulation
@@ -371,7 +371,7 @@ fn spheres_among_themselves_keep_their_own_friction() {
                 friction_coefficient: at_walls,
                 ..Tank::default()
             });
-            let mut simulation = Simulation::new(&scene).unwrap();
+            let mut simulation = DemSimulation::new(&scene).unwrap();
             simulation.advance(2000).unwrap();
             let particles = simulation.particles();
             assert!(particles.velocity[0].x < 0.0, "they have met");

@@ -6,7 +6,7 @@
 )]
 
 use crate::scenes;
-use phase::dem::Simulation;
+use phase::dem::DemSimulation;
 use phase::particles::vector::Vector;
 use phase::scene::{Integrator, Scene};
 
@@ -42,7 +42,7 @@ impl Pieces {
 }
 
 /// The scene from a state, as a list of spheres whose contacts begin there.
-fn from_state(scene: &Scene, simulation: &Simulation) -> Scene {
+fn from_state(scene: &Scene, simulation: &DemSimulation) -> Scene {
     Scene {
         start: scenes::state(simulation).start(&simulation.particles().radius),
         ..scene.clone()
@@ -52,13 +52,13 @@ fn from_state(scene: &Scene, simulation: &Simulation) -> Scene {
 fn velocities(scene: &Scene, steps: u64) -> Vec<Vector> {
     let mut scene = scene.clone();
     scene.time.dt = PIECE / steps as f64;
-    let mut simulation = Simulation::new(&scene).unwrap();
+    let mut simulation = DemSimulation::new(&scene).unwrap();
     simulation.advance(steps).unwrap();
     simulation.particles().velocity.clone()
 }
 
 /// Which spheres overlap each other, the floor and the wall.
-fn contacts(scene: &Scene, simulation: &Simulation) -> Vec<bool> {
+fn contacts(scene: &Scene, simulation: &DemSimulation) -> Vec<bool> {
     let tank = scene.tank.as_ref().unwrap();
     let (floor, wall) = (tank.floor.unwrap(), tank.radius.unwrap());
     let particles = simulation.particles();
@@ -79,7 +79,7 @@ fn contacts(scene: &Scene, simulation: &Simulation) -> Vec<bool> {
 fn reference(scene: &Scene) -> (Vec<Vector>, bool) {
     let mut scene = scene.clone();
     scene.time.dt = PIECE / REFERENCE as f64;
-    let mut simulation = Simulation::new(&scene).unwrap();
+    let mut simulation = DemSimulation::new(&scene).unwrap();
     let first = contacts(&scene, &simulation);
     let mut changed = false;
     for _ in 0..LOOKS {
@@ -98,7 +98,7 @@ fn collapse_in_pieces(friction: bool) -> [Pieces; 2] {
     if !friction {
         scene.dem.friction = None;
     }
-    let mut simulation = Simulation::new(&scene).unwrap();
+    let mut simulation = DemSimulation::new(&scene).unwrap();
     let steps = |time: f64| (time / 2e-6).round() as u64;
     simulation.advance(steps(0.03)).unwrap();
     let mut pieces = [Pieces::default(), Pieces::default()];

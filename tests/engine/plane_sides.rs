@@ -1,7 +1,7 @@
 //! A tank with plane sides.
 
 use crate::support::Workplace;
-use phase::dem::Simulation;
+use phase::dem::DemSimulation;
 use phase::scene::Scene;
 use std::path::Path;
 
@@ -33,8 +33,8 @@ fn a_sphere_bounces_between_the_sides() {
     for (axis, half, speed) in [(0, 0.04, 1.5), (1, 0.02, -1.5)] {
         let mut velocity = [0.0; 3];
         velocity[axis] = speed;
-        let mut simulation = Simulation::new(&bouncing(velocity, "")).unwrap();
-        let parts = |simulation: &Simulation| {
+        let mut simulation = DemSimulation::new(&bouncing(velocity, "")).unwrap();
+        let parts = |simulation: &DemSimulation| {
             let particles = simulation.particles();
             let (x, v) = (particles.position[0], particles.velocity[0]);
             ([x.x, x.y, x.z], [v.x, v.y, v.z])
@@ -65,7 +65,7 @@ fn a_sphere_bounces_between_the_sides() {
 
 #[test]
 fn the_sides_give_and_take_momentum_along_their_normals_alone() {
-    let mut simulation = Simulation::new(&bouncing([1.0, 0.7, 0.3], "")).unwrap();
+    let mut simulation = DemSimulation::new(&bouncing([1.0, 0.7, 0.3], "")).unwrap();
     for _ in 0..200 {
         simulation.advance(1000).unwrap();
         // Upward nothing acts.
@@ -73,7 +73,7 @@ fn the_sides_give_and_take_momentum_along_their_normals_alone() {
     }
     // A side is no floor: friction at it turns the sphere about the other axes alone.
     let rubbing = "friction = { law = 'mindlin', coefficient = 0.3 }";
-    let mut simulation = Simulation::new(&bouncing([1.0, 0.0, 0.3], rubbing)).unwrap();
+    let mut simulation = DemSimulation::new(&bouncing([1.0, 0.0, 0.3], rubbing)).unwrap();
     simulation.advance(50_000).unwrap();
     let particles = simulation.particles();
     let (velocity, spin) = (particles.velocity[0], particles.spin[0]);
@@ -99,8 +99,8 @@ const HEAP: &str = "
 #[test]
 fn spheres_start_in_the_box_and_stay_there() {
     let scene = scene(HEAP);
-    let mut simulation = Simulation::new(&scene).unwrap();
-    let inside = |simulation: &Simulation, give: f64| {
+    let mut simulation = DemSimulation::new(&scene).unwrap();
+    let inside = |simulation: &DemSimulation, give: f64| {
         let places = &simulation.particles().position;
         places
             .iter()
@@ -168,7 +168,7 @@ fn heap_of_silbert(integrator: &str) -> Scene {
 /// masses in the laws.
 #[test]
 fn bits_of_a_box_depend_on_nothing_but_the_scene() {
-    let places = |simulation: &Simulation| -> Vec<[u64; 3]> {
+    let places = |simulation: &DemSimulation| -> Vec<[u64; 3]> {
         let places = simulation.particles().position.iter();
         places.map(|p| [p.x, p.y, p.z].map(f64::to_bits)).collect()
     };
@@ -179,12 +179,12 @@ fn bits_of_a_box_depend_on_nothing_but_the_scene() {
         "adaptive-verlet",
     ] {
         let scene = heap_of_silbert(integrator);
-        let mut whole = Simulation::new(&scene).unwrap();
+        let mut whole = DemSimulation::new(&scene).unwrap();
         whole.advance(8000).unwrap();
-        let mut touchy = Simulation::with_skin(&scene, 0.0).unwrap();
+        let mut touchy = DemSimulation::with_skin(&scene, 0.0).unwrap();
         touchy.use_baseline_instructions();
         touchy.advance(5000).unwrap();
-        let mut resumed = Simulation::with_skin(&scene, 3.0).unwrap();
+        let mut resumed = DemSimulation::with_skin(&scene, 3.0).unwrap();
         resumed.restore(touchy.state()).unwrap();
         for simulation in [&mut touchy, &mut resumed] {
             simulation.advance(3000).unwrap();
@@ -201,8 +201,8 @@ fn bits_of_a_box_depend_on_nothing_but_the_scene() {
 fn a_heap_of_silbert_comes_to_rest() {
     let mut scene = heap_of_silbert("velocity-verlet");
     scene.time.dt = 1e-3;
-    let mut simulation = Simulation::new(&scene).unwrap();
-    let energy = |simulation: &mut Simulation| {
+    let mut simulation = DemSimulation::new(&scene).unwrap();
+    let energy = |simulation: &mut DemSimulation| {
         let elastic = simulation.elastic_energy();
         let particles = simulation.particles();
         (0..particles.len())
@@ -268,7 +268,7 @@ fn the_shipped_boxes_can_be_started() {
     for (name, count, [x, y]) in [("box", 200, [2.5, 1.5]), ("box-55000", 55_000, [24.5, 3.5])] {
         let path = format!("sweeps/scenes/{name}.toml");
         let scene = phase::scene::Scene::load(Path::new(&path)).unwrap();
-        let mut simulation = Simulation::new(&scene).unwrap();
+        let mut simulation = DemSimulation::new(&scene).unwrap();
         assert_eq!(simulation.particles().len(), count);
         let places = &simulation.particles().position;
         assert!(

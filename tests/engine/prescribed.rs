@@ -1,6 +1,6 @@
 //! Spheres that stay or keep to their paths break no guard, and guards name the others.
 
-use phase::dem::Simulation;
+use phase::dem::DemSimulation;
 use phase::document::Problem;
 use phase::record::Guard;
 use phase::scene::{Integrator, Scene};
@@ -43,10 +43,10 @@ fn fixed_spheres_may_stand_beyond_the_bounds() {
         for bounds in ["", "guards = { horizontal = 0.15, vertical = 0.09 }\n"] {
             let tables = format!("{BOX}{fixed}{bounds}");
             let scene = scene(&["position = [0.0, 0.0, 0.04]"], &tables, integrator);
-            let mut simulation = Simulation::new(&scene).unwrap();
+            let mut simulation = DemSimulation::new(&scene).unwrap();
             simulation.advance(20_000).unwrap();
             let ended = simulation.state().into_owned();
-            Simulation::new(&scene).unwrap().restore(ended).unwrap();
+            DemSimulation::new(&scene).unwrap().restore(ended).unwrap();
         }
     }
 }
@@ -72,7 +72,7 @@ fn a_driven_sphere_passes_walls_and_others_that_are_prescribed() {
         "position = [0.0, 0.05, 0.05]",
     ];
     for integrator in Integrator::ALL {
-        let mut simulation = Simulation::new(&scene(&places, &tables, integrator)).unwrap();
+        let mut simulation = DemSimulation::new(&scene(&places, &tables, integrator)).unwrap();
         let advanced = simulation.advance(20_000);
         advanced.unwrap_or_else(|error| panic!("{integrator:?}: {error}"));
         let particles = simulation.particles();
@@ -97,7 +97,7 @@ fn driven_spheres_may_form_one_body() {
     for integrator in Integrator::ALL {
         let tables = format!("{BOX}{}", driven("velocity = [0.1, 0.0, 0.0]"));
         let body = scene(&places, &tables, integrator);
-        let mut simulation = Simulation::new(&body).unwrap();
+        let mut simulation = DemSimulation::new(&body).unwrap();
         simulation.advance(20_000).unwrap();
         let particles = simulation.particles();
         assert!((particles.position[1].x - 0.022).abs() < 1e-9);
@@ -107,7 +107,7 @@ fn driven_spheres_may_form_one_body() {
         let mut free = body.clone();
         free.dem.driven.pop();
         assert!(free.problems()[0].message.contains("guards.overlap"));
-        let broken = Simulation::new(&free).unwrap().advance(10).unwrap_err();
+        let broken = DemSimulation::new(&free).unwrap().advance(10).unwrap_err();
         assert_eq!((broken.guard, broken.sphere), (Guard::Overlap, 1));
     }
 }
@@ -135,7 +135,7 @@ fn a_guard_names_the_sphere_as_the_scene_lists_it() {
                 let places = ["position = [0.0, 0.05, 0.01]", &moving];
                 // The check would refuse the step for such speeds.
                 let scene: Scene = toml::from_str(&text(&places, &tables, integrator)).unwrap();
-                let mut simulation = Simulation::new(&scene).unwrap();
+                let mut simulation = DemSimulation::new(&scene).unwrap();
                 let broken = simulation.advance(20_000).unwrap_err();
                 assert_eq!((broken.guard, broken.sphere), (guard, 1), "{integrator:?}");
                 assert!(broken.to_string().contains("sphere 1:"), "{broken}");
@@ -202,7 +202,7 @@ fn a_feed_may_touch_a_fixed_sphere() {
         );
         let mut scene: Scene = toml::from_str(&text).unwrap();
         assert_eq!(scene.problems(), []);
-        let mut simulation = Simulation::new(&scene).unwrap();
+        let mut simulation = DemSimulation::new(&scene).unwrap();
         simulation.advance(1500).unwrap();
         assert_eq!(simulation.counts().unwrap().released, 2, "{radius}");
         // Deeper by a millionth it is refused, and what the help says is accepted.
@@ -231,5 +231,5 @@ fn a_feed_may_be_high_above_its_tank() {
         start = { kind = 'feed', position = [0.0, 0.0, 0.8], interval = 0.1 }
         time = { dt = 1e-5, duration = 0.2, frame_interval = 0.1 }";
     let scene = Scene::from_toml(text, Path::new("feed.toml")).unwrap();
-    Simulation::new(&scene).unwrap().advance(20_000).unwrap();
+    DemSimulation::new(&scene).unwrap().advance(20_000).unwrap();
 }

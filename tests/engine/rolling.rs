@@ -5,7 +5,7 @@ use crate::ledger::{check_residual, largest, with_ledger};
 use crate::scenes::{
     INTEGRATORS, cluster, converging_spheres, damped, energy, momentum_is_kept, state, tank,
 };
-use phase::dem::Simulation;
+use phase::dem::DemSimulation;
 use phase::scene::{
     Coulomb, Friction, Integrator, Mindlin, Neighbours, Rolling, Scene, Start, StartSphere,
 };
@@ -64,7 +64,7 @@ proptest! {
     ) {
         let mut scene = resisting(damped(cluster(spheres, Some(friction), 4e-6), 1e-3));
         scene.time.integrator = integrator;
-        let mut simulation = Simulation::new(&scene).unwrap();
+        let mut simulation = DemSimulation::new(&scene).unwrap();
         let before = energy(&mut simulation, 0.0);
         for _ in 0..50 {
             simulation.advance(100).unwrap();
@@ -87,7 +87,7 @@ fn two_spheres_exchange_spin_alone() {
         let spheres = vec![sphere(-0.00398, 5.0), sphere(0.00398, -5.0)];
         let mut scene = resisting(damped(cluster(spheres, Some(friction), 1e-6), 1e-3));
         scene.time.integrator = integrator;
-        let mut simulation = Simulation::new(&scene).unwrap();
+        let mut simulation = DemSimulation::new(&scene).unwrap();
         simulation.advance(50).unwrap();
         let particles = simulation.particles();
         let [one, other] = [particles.spin[0], particles.spin[1]];
@@ -99,7 +99,7 @@ fn two_spheres_exchange_spin_alone() {
 }
 
 fn bits(scene: &Scene, steps: u64) -> Vec<[u64; 3]> {
-    let mut simulation = Simulation::new(scene).unwrap();
+    let mut simulation = DemSimulation::new(scene).unwrap();
     simulation.advance(steps).unwrap();
     state(&simulation).bits()
 }
@@ -146,13 +146,13 @@ fn springs_follow_spheres_that_are_sorted() {
     for (friction, integrator) in all() {
         let mut scene = resisting(large(Some(friction), integrator));
         scene.output.ledger = integrator == Integrator::VelocityVerlet;
-        let mut one = Simulation::new(&scene).unwrap();
+        let mut one = DemSimulation::new(&scene).unwrap();
         one.advance(STEPS).unwrap();
         let expected = state(&one).bits();
-        let mut first = Simulation::new(&scene).unwrap();
+        let mut first = DemSimulation::new(&scene).unwrap();
         first.use_threads(2).unwrap();
         first.advance(249).unwrap();
-        let mut second = Simulation::new(&scene).unwrap();
+        let mut second = DemSimulation::new(&scene).unwrap();
         second.restore(first.state()).unwrap();
         second.use_threads(3).unwrap();
         second.advance(STEPS - 249).unwrap();
@@ -165,8 +165,8 @@ fn springs_follow_spheres_that_are_sorted() {
 fn a_state_without_rolling_springs_is_refused() {
     let without = tank(Some(frictions()[1].clone()), Integrator::VelocityVerlet);
     let scene = resisting(without.clone());
-    let bare = Simulation::new(&without).unwrap();
-    let mut simulation = Simulation::new(&scene).unwrap();
+    let bare = DemSimulation::new(&without).unwrap();
+    let mut simulation = DemSimulation::new(&scene).unwrap();
     let error = simulation.restore(bare.state()).unwrap_err();
     assert!(error.to_string().contains("rolling"), "{error}");
 }
@@ -216,7 +216,7 @@ fn the_limit_of_the_step_is_that_of_the_spring() {
         assert!(limit < 0.1 * named("contact").seconds);
         let largest = |factor: f64| {
             scene.time.dt = factor * limit;
-            let mut simulation = Simulation::new(&scene).unwrap();
+            let mut simulation = DemSimulation::new(&scene).unwrap();
             let mut most = 0.0_f64;
             for _ in 0..400 {
                 simulation.advance(1).unwrap();

@@ -1,7 +1,7 @@
 //! Spins that friction takes away for good.
 
 use crate::scenes::{INTEGRATORS, tank};
-use phase::dem::Simulation;
+use phase::dem::DemSimulation;
 use phase::scene::{Friction, Radii, Spin, Start, StartSphere};
 
 /// Symptom: a run of `theoretical.toml` took six times as long for a second of motion from the
@@ -22,7 +22,7 @@ fn spins_that_friction_takes_away_become_zero() {
             spin: [3.0, -4.0, 5.0],
             ..sphere
         }]);
-        let mut simulation = Simulation::new(&scene).unwrap();
+        let mut simulation = DemSimulation::new(&scene).unwrap();
         simulation.advance(20_000).unwrap();
         let spin = simulation.particles().spin[0];
         assert_eq!([spin.x, spin.y], [0.0, 0.0], "{integrator:?}");

@@ -4,7 +4,7 @@
 //! its spheres were shot out at 2.85 m/s. Cause: the check knew feeds in fixed spheres, random
 //! starts in the floor and listed centres beyond walls, and nothing else.
 
-use phase::dem::{Partner, Release, Simulation};
+use phase::dem::{DemSimulation, OverlapPartner, Release};
 use phase::document::Problem;
 use phase::scene::{Scene, Start, StartSphere};
 use proptest::prelude::*;
@@ -150,7 +150,7 @@ fn the_speed_that_is_told_is_reached() {
         .unwrap();
         scene.dem.effects.gravity = None;
         let told = Release::of_scene(&scene).unwrap().fastest.speed;
-        let mut simulation = Simulation::new(&scene).unwrap();
+        let mut simulation = DemSimulation::new(&scene).unwrap();
         simulation.advance(40_000).unwrap();
         let particles = simulation.particles();
         let speed = particles.velocity[particles.fixed].norm();
@@ -167,8 +167,11 @@ fn listed_spheres_in_each_other_are_told_of_and_refused_where_the_run_would_end(
     for deep in [0.3, 1.0, 1.4] {
         assert_eq!(messages(&pair(deep).problems()), [""; 0]);
         let release = Release::of_scene(&pair(deep)).unwrap();
-        assert_eq!(release.fastest.partner, Partner::Sphere(0));
-        Simulation::new(&pair(deep)).unwrap().advance(10).unwrap();
+        assert_eq!(release.fastest.partner, OverlapPartner::Sphere(0));
+        DemSimulation::new(&pair(deep))
+            .unwrap()
+            .advance(10)
+            .unwrap();
     }
     let problems = pair(1.6).problems();
     assert_eq!(problems.len(), 1);
@@ -177,7 +180,7 @@ fn listed_spheres_in_each_other_are_told_of_and_refused_where_the_run_would_end(
         "{}",
         problems[0]
     );
-    assert!(Simulation::new(&pair(1.6)).unwrap().advance(1).is_err());
+    assert!(DemSimulation::new(&pair(1.6)).unwrap().advance(1).is_err());
     let mut wide = pair(1.6);
     wide.dem.guards.overlap = 1.7;
     assert_eq!(messages(&wide.problems()), [""; 0]);
@@ -231,7 +234,7 @@ fn a_bed_goes_on_from_its_own_state_without_a_word() {
         *interval = 0.2;
     }
     scene.dem.effects.gravity.as_mut().unwrap().acceleration = 9.81;
-    let mut simulation = Simulation::new(&scene).unwrap();
+    let mut simulation = DemSimulation::new(&scene).unwrap();
     for steps in [9000, 11_000, 20_000] {
         simulation.advance(steps).unwrap();
         let particles = simulation.particles();
@@ -380,7 +383,7 @@ fn a_random_start_keeps_clear_of_fixed_spheres() {
     let mut scene = scene(&format!("{ROUND}\n{walls}"), random);
     scene.spheres.count = 20;
     assert_eq!(messages(&scene.problems()), [""; 0]);
-    let simulation = Simulation::new(&scene).unwrap();
+    let simulation = DemSimulation::new(&scene).unwrap();
     for at in &simulation.particles().position[3..] {
         assert!(depth(&scene, [at.x, at.y, at.z]) <= 1e-12, "{at:?}");
     }

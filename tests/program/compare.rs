@@ -215,7 +215,7 @@ fn spheres_that_cannot_be_told_apart_are_refused() {
         (format!("{one}{numbered}"), "write an `id` of each sphere"),
         (
             one.to_owned() + "1\nTime=1\nA 50 0 1\n",
-            "state 2: sphere 0 is beside the walls of the scene",
+            "state 2: sphere 0 is outside the walls of the scene",
         ),
         (
             "2\nTime=0\nA 0 0 1e-3\nA 0 0 2e-3\n"

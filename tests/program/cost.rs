@@ -3,7 +3,7 @@
 
 use crate::support::{TinySweep, Workplace, drainage_file, silo_file};
 use phase::cost::{OBSERVERS, RECORD, RunCost, START, SweepCost};
-use phase::dem::Part;
+use phase::dem::StepPart;
 use phase::record::Outcome;
 use phase::scene::{Integrator, Scene};
 use phase::store::content_digest;
@@ -93,10 +93,10 @@ fn drainages_by_spots_are_divided_into_their_parts() {
 fn what_a_scene_does_not_have_costs_nothing() {
     let whole = RunCost::measure(&realistic(0.4), LONG).unwrap();
     let effects = ["gravity", "swirl", "updraught", "spin damping"];
-    for part in Part::all() {
+    for part in StepPart::all() {
         let absent = match part {
-            Part::Ledger | Part::Process | Part::Rolling | Part::Sides => true,
-            Part::Effect(_) => !effects.contains(&part.name()),
+            StepPart::Ledger | StepPart::Process | StepPart::Rolling | StepPart::Sides => true,
+            StepPart::Effect(_) => !effects.contains(&part.name()),
             _ => false,
         };
         assert_eq!(part.is_in(&whole.record.scene), !absent, "{part:?}");
@@ -108,16 +108,20 @@ fn what_a_scene_does_not_have_costs_nothing() {
     scene.tank.as_mut().unwrap().floor = None;
     scene.output.ledger = true;
     let cost = RunCost::measure(&scene, LONG).unwrap();
-    for part in Part::all() {
+    for part in StepPart::all() {
         let absent = match part {
-            Part::Shield | Part::Floor | Part::Rolling | Part::Sides | Part::Process => true,
-            Part::Effect(_) => !["gravity", "swirl"].contains(&part.name()),
+            StepPart::Shield
+            | StepPart::Floor
+            | StepPart::Rolling
+            | StepPart::Sides
+            | StepPart::Process => true,
+            StepPart::Effect(_) => !["gravity", "swirl"].contains(&part.name()),
             _ => false,
         };
         assert_eq!(part.is_in(&scene), !absent, "{part:?}");
         assert_eq!(cost.seconds(part.name()) == 0.0, absent, "{part:?}");
     }
-    let sum: f64 = Part::all().map(|part| cost.seconds(part.name())).sum();
+    let sum: f64 = StepPart::all().map(|part| cost.seconds(part.name())).sum();
     let rest = [OBSERVERS, RECORD, START].map(|part| cost.seconds(part));
     let sum = sum + rest.iter().sum::<f64>();
     assert!((sum / cost.total() - 1.0).abs() < 1e-12);
@@ -130,7 +134,12 @@ fn spheres_without_forces_have_no_lists() {
     scene.dem.friction = None;
     scene.dem.effects.updraught = None;
     let cost = RunCost::measure(&scene, LONG).unwrap();
-    for part in [Part::List, Part::Near, Part::Pairs, Part::Floor] {
+    for part in [
+        StepPart::List,
+        StepPart::Near,
+        StepPart::Pairs,
+        StepPart::Floor,
+    ] {
         assert!(!part.is_in(&scene), "{part:?}");
         assert_eq!(cost.seconds(part.name()), 0.0, "{part:?}");
     }
@@ -171,7 +180,7 @@ fn spheres_that_come_and_go_are_counted_while_they_are_there() {
     let steps: u64 = cost.record.work;
     let ratio = cost.work as f64 / steps as f64;
     assert!((0.95..1.05).contains(&ratio), "{ratio}");
-    assert!(cost.seconds(Part::Process.name()) > 0.0);
+    assert!(cost.seconds(StepPart::Process.name()) > 0.0);
 }
 
 #[test]

@@ -5,7 +5,7 @@
 
 use crate::support::{Workplace, drainage_file};
 use ndarray::Array2;
-use phase::measure::{Centres, FilledBox, Walls, voronoi_cells};
+use phase::measure::{CellBounds, Centres, FilledBox, voronoi_cells};
 use phase::simulation::Snapshot;
 use phase::store::read_record;
 use proptest::prelude::*;
@@ -170,7 +170,7 @@ fn dense_packings_keep_their_fractions() {
     let start = &record.snapshots[0];
     let filled_box = FilledBox::new([4.5, 3.0], 0.0, 1.0, start);
     for state in &record.snapshots {
-        let walls = Walls {
+        let walls = CellBounds {
             low: [-4.5, -3.0, 0.0],
             high: [4.5, 3.0, f64::MAX],
             farthest: 1.0,

@@ -1,7 +1,7 @@
 //! Scenes that the tests of the engine share.
 #![allow(dead_code, reason = "each test program uses a part of it")]
 
-use phase::dem::Simulation;
+use phase::dem::DemSimulation;
 use phase::particles::Particles;
 use phase::particles::vector::Vector;
 use phase::scene::{
@@ -124,7 +124,7 @@ pub(crate) fn angular_momentum(particles: &Particles) -> Vector {
 
 /// Whether isolated spheres keep momentum and angular momentum over 1500 steps, to rounding.
 pub(crate) fn momentum_is_kept(scene: &Scene) -> Result<(), TestCaseError> {
-    let mut simulation = Simulation::new(scene).unwrap();
+    let mut simulation = DemSimulation::new(scene).unwrap();
     let before = simulation.particles().clone();
     simulation.advance(1500).unwrap();
     let after = simulation.particles();
@@ -154,7 +154,7 @@ pub(crate) fn scales(particles: &Particles) -> (f64, f64) {
 }
 
 /// Kinetic, rotational, gravitational and elastic energy (J).
-pub(crate) fn energy(simulation: &mut Simulation, gravity: f64) -> f64 {
+pub(crate) fn energy(simulation: &mut DemSimulation, gravity: f64) -> f64 {
     let elastic = simulation.elastic_energy();
     let particles = simulation.particles();
     let of_sphere = |i: usize| {
@@ -188,7 +188,7 @@ pub(crate) struct State {
     pub(crate) spin: Vec<Vector>,
 }
 
-pub(crate) fn state(simulation: &Simulation) -> State {
+pub(crate) fn state(simulation: &DemSimulation) -> State {
     let particles = simulation.particles();
     State {
         position: particles.position.clone(),

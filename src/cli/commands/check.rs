@@ -11,7 +11,7 @@ use crate::cli::time_step::{self, Tightest, tightest_limits};
 use crate::cli::values;
 use crate::cli::{format, job, overlaps};
 use phase::cost::{Forecast, Leaves, forecast};
-use phase::dem::timestep::{Limit, Standing};
+use phase::dem::timestep::{Limit, StepMargin};
 use phase::document::LoadError;
 use phase::run::Edits;
 use phase::scene::{FileKind, Scene, Start, Tank};
@@ -251,7 +251,7 @@ fn describe_time_step(tightest: &[Tightest<'_>], axes: &[Axis], all: bool) -> Ve
 
 /// A limit with its ratio, where that occurs, and with `explain` its formula.
 fn describe_limit(tightest: &Tightest<'_>, axes: &[Axis], explain: bool) -> String {
-    let Standing { limit, ratio } = tightest.standing;
+    let StepMargin { limit, ratio } = tightest.standing;
     let Limit {
         name,
         seconds,
@@ -367,7 +367,7 @@ struct LimitAnswer {
 
 impl LimitAnswer {
     fn new(tightest: &Tightest<'_>, axes: &[Axis]) -> Self {
-        let Standing { limit, ratio } = tightest.standing;
+        let StepMargin { limit, ratio } = tightest.standing;
         Self {
             name: limit.name,
             seconds: limit.seconds,

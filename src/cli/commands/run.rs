@@ -9,7 +9,7 @@ use crate::cli::values;
 use crate::cli::{folders, format, overlaps, time_step};
 use again::Original;
 use interruptible::Ran;
-use phase::dem::timestep::Standing;
+use phase::dem::timestep::StepMargin;
 use phase::document::Problem;
 use phase::record::{Milestone, MilestoneKind, Outcome, RunRecord};
 use phase::resume::{Checkpoints, DEFAULT_INTERVAL};
@@ -328,7 +328,7 @@ impl<'a> Answer<'a> {
             Outcome::Completed => ("completed", None),
             Outcome::Unstable(instability) => ("unstable", Some(instability)),
         };
-        let standing = Standing::decisive(&record.scene);
+        let standing = StepMargin::decisive(&record.scene);
         Self {
             record: path,
             seed: record.scene.seed,

@@ -5,13 +5,13 @@ use crate::scene::{Scene, Start, Tank};
 
 /// How far from the axis, along x or y, and from z = 0 a centre may start (m), and the key that
 /// says so.
-struct Reach {
+struct StartReach {
     path: String,
     aside: f64,
     height: f64,
 }
 
-impl Reach {
+impl StartReach {
     fn of(path: String, [x, y, z]: [f64; 3], spread: f64) -> Self {
         Self {
             path,
@@ -36,7 +36,7 @@ impl Scene {
         let reaches = self.reaches_of_start();
         for (axis, (key, bound)) in bounds.into_iter().enumerate() {
             let Some(bound) = bound else { continue };
-            let reach = |it: &Reach| [it.aside, it.height][axis];
+            let reach = |it: &StartReach| [it.aside, it.height][axis];
             let farthest = reaches.iter().max_by(|a, b| reach(a).total_cmp(&reach(b)));
             let Some(farthest) = farthest.filter(|it| reach(it) > bound) else {
                 continue;
@@ -52,7 +52,7 @@ impl Scene {
         }
     }
 
-    fn reaches_of_start(&self) -> Vec<Reach> {
+    fn reaches_of_start(&self) -> Vec<StartReach> {
         let tank = self.tank.clone().unwrap_or_default();
         let inside = |tank: &Tank| {
             let room = |side: Option<f64>| side.map_or(0.0, |side| side - self.smallest_radius());
@@ -63,22 +63,26 @@ impl Scene {
             Start::List { .. } => {
                 let reach = self.free_listed().map(|(index, sphere)| {
                     let path = format!("start.spheres[{index}].position");
-                    Reach::of(path, sphere.position, 0.0)
+                    StartReach::of(path, sphere.position, 0.0)
                 });
                 reach.collect()
             }
             Start::Feed {
                 position, spread, ..
-            } => vec![Reach::of("start.position".to_owned(), *position, *spread)],
+            } => vec![StartReach::of(
+                "start.position".to_owned(),
+                *position,
+                *spread,
+            )],
             Start::Random { z_min, z_max, .. } => vec![
-                Reach::of("start.z_min".to_owned(), [x, y, *z_min], 0.0),
-                Reach::of("start.z_max".to_owned(), [x, y, *z_max], 0.0),
+                StartReach::of("start.z_min".to_owned(), [x, y, *z_min], 0.0),
+                StartReach::of("start.z_max".to_owned(), [x, y, *z_max], 0.0),
             ],
             Start::Packing {} => {
                 let floor = tank.floor.unwrap_or(0.0);
                 let top = floor + self.packed_height();
                 let height = if top.abs() > floor.abs() { top } else { floor };
-                vec![Reach::of("start.kind".to_owned(), [x, y, height], 0.0)]
+                vec![StartReach::of("start.kind".to_owned(), [x, y, height], 0.0)]
             }
             Start::File { .. } => Vec::new(),
         }

@@ -9,13 +9,13 @@ use crate::particles::vector::Vector;
 use crate::scene::{FixedSphere, Geometry, Scene, Start, Tank, rounded};
 use crate::start;
 
-/// Moves beside fixed spheres in search of a clear place: more than a corner of walls needs.
+/// Largest number of moves in search of a clear place: more than a corner between walls needs.
 const MOST_MOVES: usize = 100;
 
 /// Where the largest sphere of a feed may come in: anywhere within `spread` (m) of a position along
 /// x.
 #[derive(Clone, Copy)]
-struct Place {
+struct FeedPlace {
     position: [f64; 3],
     spread: f64,
     radius: f64,
@@ -31,11 +31,11 @@ impl Scene {
         else {
             return;
         };
-        // Spots move no feed, which is refused there.
+        // Spot scenes cannot have a feed: it is refused elsewhere.
         if self.spot.is_some() {
             return;
         }
-        let place = Place {
+        let place = FeedPlace {
             position,
             spread,
             radius: self.radius_range().1,
@@ -50,7 +50,7 @@ impl Scene {
         self.check_driven_at_the_feed(problems);
     }
 
-    fn check_fixed_spheres_at(&self, place: Place, problems: &mut Vec<Problem>) {
+    fn check_fixed_spheres_at(&self, place: FeedPlace, problems: &mut Vec<Problem>) {
         let fixed = self.dem.geometry.as_ref().map(Geometry::spheres);
         let fixed = fixed.unwrap_or_default();
         let fixed = [fixed.walls, fixed.door].concat();
@@ -71,8 +71,8 @@ impl Scene {
     }
 
     /// The nearest position beside, below or above a place at which neither fixed spheres nor walls
-    /// are in the way, if there is one with all of the spread; to six digits.
-    fn clear_of_fixed(&self, place: Place, fixed: &[FixedSphere]) -> Option<[f64; 3]> {
+    /// are in the way, over the whole spread, if there is one. Rounded to six digits.
+    fn clear_of_fixed(&self, place: FeedPlace, fixed: &[FixedSphere]) -> Option<[f64; 3]> {
         let mut start = place;
         if let Some(tank) = self.tank.as_ref()
             && self.fault_at(place.position, place.radius).is_some()
@@ -102,9 +102,9 @@ impl Scene {
         nearest.map(|(_, position)| position)
     }
 
-    fn check_walls_at(&self, place: Place, problems: &mut Vec<Problem>) {
+    fn check_walls_at(&self, place: FeedPlace, problems: &mut Vec<Problem>) {
         let Some(tank) = &self.tank else { return };
-        let Place {
+        let FeedPlace {
             position: [x, y, z],
             spread,
             radius,
@@ -125,7 +125,7 @@ impl Scene {
                 number(radius),
                 number(spread)
             );
-            let most = self.widest_spread(Place {
+            let most = self.widest_spread(FeedPlace {
                 position: clear,
                 ..place
             });
@@ -134,9 +134,9 @@ impl Scene {
         }
     }
 
-    /// The widest spread (m), to six digits, at a clear position where its own is too wide. The
-    /// shifts at which no wall is in the way are an interval.
-    fn widest_spread(&self, place: Place) -> String {
+    /// The widest spread (m), to six digits, that fits at a clear position. The shifts at which no
+    /// wall is in the way form an interval.
+    fn widest_spread(&self, place: FeedPlace) -> String {
         let [x, y, z] = place.position;
         let (mut most, mut too_wide) = (0.0, place.spread);
         for _ in 0..f64::MANTISSA_DIGITS {
@@ -181,7 +181,8 @@ impl Scene {
         let falls = gravity.is_some_and(|gravity| gravity.acceleration != 0.0);
         let moves = falls || fastest_impact(self) > 0.0;
         if !moves && self.spheres.count > 1 && spread == 0.0 {
-            let message = "nothing moves spheres from where they come in: the second finds no room";
+            let message = "nothing moves spheres away from where they come in, so the second finds \
+                no room";
             let help = "give them a `velocity`, or add [gravity]";
             problems.push(Problem::new("start", message).help(help));
         }
@@ -208,7 +209,7 @@ impl Scene {
             if let Some(later) = (number + 1..spheres.len()).find(|it| stays_in_the_way(*it)) {
                 let message = format!(
                     "the driven sphere {number} stays where sphere {later} is to come in, which \
-                     waits for ever"
+                     would wait for ever"
                 );
                 let help = "give it a `velocity` that takes it away, or drive the last sphere";
                 problems.push(Problem::new(format!("driven[{k}]"), message).help(help));
@@ -217,7 +218,7 @@ impl Scene {
     }
 }
 
-impl Place {
+impl FeedPlace {
     /// The first of these spheres that overlaps what comes in.
     fn in_the_way<'a>(&self, fixed: &'a [FixedSphere]) -> Option<&'a FixedSphere> {
         fixed.iter().find(|sphere| {
@@ -234,7 +235,7 @@ impl Place {
     }
 
     /// The coordinate (m) along an axis at which what comes in is just beyond a sphere, on the side
-    /// of that sign.
+    /// that `sign` gives.
     fn beyond(&self, sphere: &FixedSphere, axis: usize, sign: f64) -> f64 {
         let reach = self.radius + sphere.radius;
         let mut offset = self.offset(sphere);
@@ -249,7 +250,7 @@ impl Place {
     }
 
     /// The nearest position at which walls and floor are not in the way, with as much of the spread
-    /// as there is room for; to six digits.
+    /// as fits. Rounded to six digits.
     fn clear_of(&self, tank: &Tank) -> [f64; 3] {
         let Self {
             position: [x, y, z],

@@ -13,7 +13,7 @@ use crate::scene::Scene;
 impl Scene {
     /// All problems of this scene. A scene without problems can be run.
     ///
-    /// Radii and starts that are still names of files are not checked.
+    /// Radii and starts that are still file names are not checked.
     pub fn problems(&self) -> Vec<Problem> {
         match self.problems_of_values() {
             problems if problems.is_empty() => self.problems_in_range(),
@@ -54,14 +54,13 @@ impl Scene {
         }
     }
 
-    /// The scene that is run, checked. Where `time.safety_factor` is there, the time step is
-    /// chosen: the largest that is at most that factor times every limit of
-    /// [`timestep::limits`](crate::dem::timestep::limits) and of which the intervals of frames and
-    /// of the feed are whole multiples. What comes back has a number for its step and no safety
-    /// factor.
+    /// The scene to run, checked. If `time.safety_factor` is set, the time step is chosen: the
+    /// largest step that is at most this factor times every limit in
+    /// [`timestep::limits`](crate::dem::timestep::limits) and that divides the intervals of frames
+    /// and of the feed. The returned scene has a number as its step and no safety factor.
     ///
     /// # Errors
-    /// [`Scene::problems`] of what comes back; and if a step is to be chosen, but nothing limits
+    /// [`Scene::problems`] of the returned scene; also if a step must be chosen but nothing limits
     /// it, or no step divides both intervals.
     pub fn with_chosen_step(self) -> Result<Self, Vec<Problem>> {
         accept(self.problems_of_values())?;

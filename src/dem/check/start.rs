@@ -1,6 +1,6 @@
 //! Whether the spheres have room where they start.
 
-use crate::dem::overlap::{self, Overlap, Partner};
+use crate::dem::overlap::{self, Overlap, OverlapPartner};
 use crate::document::{Problem, accepted, at_least, number};
 use crate::scene::{Scene, Start, Tank, may_hold, plural, rounded};
 use crate::start;
@@ -17,7 +17,8 @@ const CERTAIN_PACKING: f64 = 0.10;
 /// spheres fill a third of the usual volume.
 const HIGHEST_PACKING: f64 = 3.0;
 
-/// Largest number of spheres that are placed on trial. Larger numbers are small against their tank.
+/// Largest number of spheres that are placed on trial. In larger scenes spheres are small against
+/// their tank.
 const MOST_TRIED: usize = 10_000;
 
 impl Scene {
@@ -44,7 +45,7 @@ impl Scene {
         }
         let height_for = |fraction: f64| volume / (fraction * area);
         let fraction_up_to = |z_max: f64| height_for(1.0) / (z_max - z_min + 2.0 * radii.mean());
-        // Spheres that are not small against the tank find less room: only a trial tells.
+        // Spheres that are not small against the tank find less room: only a trial can tell.
         let finds_room = |z_max: f64| match fraction_up_to(z_max) {
             fraction if fraction > PACKING_LIMIT => false,
             fraction if fraction > CERTAIN_PACKING => !self.trial_fails(z_max),
@@ -117,15 +118,15 @@ impl Scene {
     /// Refuses listed spheres that overlap so much that the run would end at once, or that have
     /// their centre inside a fixed sphere. The deepest overlap is named.
     ///
-    /// Other overlaps are allowed: soft contacts, with which a run goes on from a former state, may
-    /// be as deep as a radius. [`Release`](crate::dem::Release) finds those that no
-    /// motion of this scene explains, and commands warn of them.
+    /// Other overlaps are allowed: soft contacts in a start that continues an earlier run may be as
+    /// deep as a radius. [`Release`](crate::dem::Release) finds overlaps that no motion in this
+    /// scene explains, and commands warn of them.
     pub(super) fn check_overlaps(&self, problems: &mut Vec<Problem>) {
         let limit = self.dem.guards.overlap;
         let mut deepest: Option<Overlap> = None;
         overlap::visit(self, |overlap| {
-            let is_inside =
-                matches!(overlap.partner, Partner::Fixed(_)) && overlap.depth > overlap.radius;
+            let is_inside = matches!(overlap.partner, OverlapPartner::Fixed(_))
+                && overlap.depth > overlap.radius;
             let before = deepest.map_or(0.0, |it| it.depth_in_radii);
             if (is_inside || overlap.depth_in_radii > limit) && overlap.depth_in_radii > before {
                 deepest = Some(overlap);
@@ -153,16 +154,16 @@ impl Scene {
         // A little more, so that rounding does not matter.
         let apart = at_least((distance + depth - allowed) * (1.0 + 1e-9));
         let other = match partner {
-            Partner::Wall(_) => partner.to_string(),
-            Partner::Sphere(_) | Partner::Fixed(_) => "the other centre".to_owned(),
+            OverlapPartner::Wall(_) => partner.to_string(),
+            OverlapPartner::Sphere(_) | OverlapPartner::Fixed(_) => "the other centre".to_owned(),
         };
         let help = format!("move its centre to {apart} m or farther from {other}");
         let path = format!("start.spheres[{sphere}].position");
         problems.push(Problem::new(path, message).help(help));
     }
 
-    /// Whether the spheres, if they are not too many for a quick trial, cannot be placed below
-    /// this height (m).
+    /// Whether a quick trial fails to place the spheres below this height (m). False if there are
+    /// too many for a trial.
     fn trial_fails(&self, highest: f64) -> bool {
         if self.spheres.count > MOST_TRIED {
             return false;

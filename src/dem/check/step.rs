@@ -41,7 +41,7 @@ impl Scene {
             limit.explanation,
             timestep::fastest_impact(self),
         );
-        // A round number of steps per frame, and some accuracy besides stability.
+        // A round number of steps per frame, with some accuracy as well as stability.
         let frame = self.time.frame_interval;
         let parts = self.parts_of_a_frame().unwrap_or(libm::round(frame / dt));
         let steps = parts * round_up(2.0 * frame / (limit.seconds * parts));
@@ -53,7 +53,7 @@ impl Scene {
             Some(dt) => {
                 format!("use `dt = {dt}` or less: {steps} steps per frame, at most half the limit")
             }
-            None => "use half the limit; where no step may be so short, softer contacts or larger \
+            None => "use half the limit; if that is too short, use softer contacts or larger \
                      spheres"
                 .to_owned(),
         };

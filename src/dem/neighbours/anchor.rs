@@ -109,7 +109,7 @@ impl Anchor {
     }
 
     /// The displacements that leave a list valid `time` (s) after it was built, if the offset of a
-    /// pair may change by `margin` (m). `half_diagonal` (m) is that of the largest box about a
+    /// pair may change by `margin` (m). `half_diagonal` (m) belongs to the largest box about a
     /// sphere in which partners are counted. It is zero if only distances matter.
     pub(super) fn allowance(&self, time: f64, margin: f64, half_diagonal: f64) -> Allowance {
         let angle = self.rotation * time;

@@ -7,7 +7,7 @@ use crate::particles::vector::Vector;
 
 /// Spheres sorted by cell.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Cells {
+pub(super) struct BoundedCells {
     shape: [usize; 3],
     /// Spheres of cell c are `first[c]..first[c + 1]` of the sorted arrays.
     first: Vec<u32>,
@@ -18,7 +18,7 @@ pub(super) struct Cells {
     radius: Vec<f64>,
 }
 
-impl Cells {
+impl BoundedCells {
     /// Sorts the spheres into cells of this width or wider (m). Cells of columns hold spheres of
     /// any height.
     pub(super) fn fill(

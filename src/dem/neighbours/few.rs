@@ -1,5 +1,5 @@
-//! All pairs of a few spheres, many of them tested at once. Below some thousand spheres this is
-//! faster than cells, and finds the partners of a sphere in order.
+//! All pairs of a few spheres, many of them tested at once. Below a few thousand spheres this is
+//! faster than cells, and it finds the partners of a sphere in order.
 
 use super::{Reach, WORD};
 use crate::particles::Particles;

@@ -24,7 +24,7 @@ impl VerletList {
         }
     }
 
-    /// Notes that the spheres that are not to be kept were removed, and the others have new
+    /// Notes that the spheres not marked in `keep` were removed and that the others have new
     /// indices.
     pub fn remove_spheres(&mut self, keep: &[bool]) {
         if self.builds == 0 {
@@ -97,7 +97,8 @@ impl VerletList {
         self.reach == Reach::Contact && !self.sorted && self.search.may_be_replaced()
     }
 
-    /// Calls `visit` with every other sphere whose reference is within the skin of that of a stray.
+    /// Calls `visit` with every other sphere whose reference is within the skin of the stray's
+    /// reference.
     fn anchored_partners(&self, particles: &Particles, stray: usize, mut visit: impl FnMut(usize)) {
         let references = self.anchor.position();
         let (centre, radius) = (references[stray].place(), particles.radius[stray]);

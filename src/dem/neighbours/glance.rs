@@ -1,7 +1,7 @@
 //! Tests on a block of pairs, whose results hold for a few steps.
 
 use super::{NearPair, Particles};
-use crate::particles::block::{BLOCK, Column, Columns, ROWS, row};
+use crate::particles::block::{BLOCK, BlockColumn, ROWS, VectorColumns, row};
 use fearless_simd::{Simd, SimdBase, SimdMask, f64x8};
 
 /// Results of the tests on eight pairs, as bits.
@@ -22,9 +22,9 @@ pub(super) struct Facts {
 pub(super) struct Glance {
     pub(super) pairs: [NearPair; BLOCK],
     /// From the second centre to the first (m).
-    offset: Columns,
+    offset: VectorColumns,
     /// Radii (m), and the radius of all spheres if these are equal.
-    radius: [Column; 2],
+    radius: [BlockColumn; 2],
     pub(super) common_radius: Option<f64>,
 }
 
@@ -32,7 +32,7 @@ impl Glance {
     pub(super) fn new() -> Self {
         Self {
             pairs: [NearPair::default(); BLOCK],
-            offset: Columns::ZERO,
+            offset: VectorColumns::ZERO,
             radius: [[0.0; BLOCK]; 2],
             common_radius: None,
         }
@@ -83,7 +83,7 @@ impl Glance {
         margin: f64,
         shield: Option<(f64, f64)>,
     ) -> Facts {
-        let eight = |column: &Column| f64x8::from_slice(simd, &column[at..at + ROWS]);
+        let eight = |column: &BlockColumn| f64x8::from_slice(simd, &column[at..at + ROWS]);
         let ([x, y, z], [ri, rj]) = (&self.offset.0, &self.radius);
         let (dx, dy, dz) = (eight(x), eight(y), eight(z));
         let (ri, rj) = (eight(ri), eight(rj));

@@ -8,7 +8,7 @@ use crate::particles::vector::Vector;
 const NONE: u32 = u32::MAX;
 
 /// The coordinates of a cell, counted in cells from the origin along x, y and z.
-type Place = [i64; 3];
+type CellIndex = [i64; 3];
 
 /// Spheres in cells of one width. A cell is a chain that begins at the entry of its hash. Cells of
 /// equal hash share a chain, so every sphere keeps the coordinates of its cell.
@@ -19,7 +19,7 @@ pub(super) struct HashedCells {
     /// The sphere after each sphere in its chain.
     next: Vec<u32>,
     /// The cell of each sphere.
-    place: Vec<Place>,
+    place: Vec<CellIndex>,
     /// Whether all cells lie in one layer along x, y and z.
     flat: [bool; 3],
 }
@@ -79,7 +79,7 @@ impl HashedCells {
     #[inline]
     fn visit_cell(
         &self,
-        place: Place,
+        place: CellIndex,
         particles: &Particles,
         visit: &mut impl FnMut(u32, Vector, f64),
     ) {
@@ -96,7 +96,7 @@ impl HashedCells {
 
 /// Spreads neighbouring cells over the table (the primes of Teschner et al., 2003).
 #[inline]
-fn hash([x, y, z]: Place) -> usize {
+fn hash([x, y, z]: CellIndex) -> usize {
     let mixed =
         x.wrapping_mul(73_856_093) ^ y.wrapping_mul(19_349_663) ^ z.wrapping_mul(83_492_791);
     mixed as usize

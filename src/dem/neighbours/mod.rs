@@ -38,7 +38,7 @@ use std::f64::consts::SQRT_2;
 
 pub use self::anchor::{Allowance, Reference};
 
-/// Which pairs a list must hold.
+/// The pairs that a list must hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reach {
     /// Pairs that may touch.

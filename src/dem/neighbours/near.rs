@@ -170,9 +170,9 @@ impl Near {
         self.pairs.extend(pairs.map(|(i, j)| NearPair::new(i, j)));
     }
 
-    /// Notes that the spheres that are not to be kept were removed. Their pairs are removed, and
-    /// the others get new indices. The list must then be refreshed. Returns for each pair whether
-    /// it is kept.
+    /// Notes that the spheres not marked in `keep` were removed. Their pairs are removed, and the
+    /// others get new indices. The list must then be refreshed. Returns for each pair whether it is
+    /// kept.
     pub fn remove_spheres(&mut self, keep: &[bool]) -> Vec<bool> {
         self.anchor.remove_spheres(keep);
         let index = indices_of_kept(keep);

@@ -1,7 +1,7 @@
 //! The search for candidate pairs, before their distances are computed.
 
 use super::Reach;
-use super::cells::Cells;
+use super::cells::BoundedCells;
 use super::hash::HashedCells;
 use crate::particles::Particles;
 use crate::particles::vector::Vector;
@@ -21,7 +21,7 @@ pub(super) enum Storage {
 pub(super) enum Search {
     /// Cells in a box about all spheres, of this width (m) or, if none is given, as wide as pairs
     /// reach.
-    Cells(Cells, Option<f64>),
+    Cells(BoundedCells, Option<f64>),
     /// Cells of this width (m) in a hash table.
     Hashed(HashedCells, f64),
     /// Test all pairs.
@@ -31,8 +31,8 @@ pub(super) enum Search {
 impl Search {
     pub(super) fn new(neighbours: Neighbours) -> Self {
         match neighbours {
-            Neighbours::VerletList => Self::Cells(Cells::default(), None),
-            Neighbours::Cells { length } => Self::Cells(Cells::default(), Some(length)),
+            Neighbours::VerletList => Self::Cells(BoundedCells::default(), None),
+            Neighbours::Cells { length } => Self::Cells(BoundedCells::default(), Some(length)),
             Neighbours::HashedCells { length } => Self::Hashed(HashedCells::default(), length),
             Neighbours::AllPairs => Self::AllPairs,
         }
@@ -67,7 +67,7 @@ impl Search {
     /// Frees the memory of cells.
     pub(super) fn forget(&mut self) {
         if let Self::Cells(cells, _) = self {
-            *cells = Cells::default();
+            *cells = BoundedCells::default();
         }
     }
 

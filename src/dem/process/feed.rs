@@ -4,8 +4,8 @@ use crate::dem::system::Engine;
 use crate::particles::Sphere;
 use std::collections::VecDeque;
 
-/// Overlaps with fixed spheres below this share of the radii come from rounded positions, and do
-/// not hold back what comes in.
+/// Overlaps with fixed spheres below this share of the radii come from rounded positions and do not
+/// block the feed.
 pub(in crate::dem) const ROUNDING: f64 = 1e-9;
 
 /// Spheres that come in one after the other, at one place.

@@ -1,8 +1,8 @@
 //! Whether a sphere passed a floor beside its opening.
 //!
 //! A floor with an opening has two sides, because spheres that left through the opening may come
-//! under it. So a sphere that is pressed through it from above would go on below, and no overlap
-//! would tell.
+//! under it. So a sphere pressed through it from above would continue below, and no overlap would
+//! show it.
 
 use super::Free;
 use crate::particles::Particles;
@@ -21,7 +21,7 @@ pub(super) struct FloorWatch {
 }
 
 impl FloorWatch {
-    /// A watch over the floor of a scene, if that has an opening.
+    /// A watch over the floor of a scene, if the floor has an opening.
     pub(super) fn of_scene(scene: &Scene) -> Option<Self> {
         let tank = scene.tank.as_ref().filter(|tank| tank.has_opening())?;
         Some(Self {
@@ -31,8 +31,7 @@ impl FloorWatch {
         })
     }
 
-    /// Reports the first sphere that came below the floor where there is no opening, since the
-    /// latest check.
+    /// Reports the first sphere that passed the floor beside its opening since the latest check.
     pub(super) fn check(
         &mut self,
         particles: &Particles,
@@ -49,7 +48,7 @@ impl FloorWatch {
             let number = particles.number[i];
             below.insert(number);
             let place = crossing(centre, particles.velocity[i], self.height);
-            // What starts there came from nowhere.
+            // Spheres that start there did not pass the floor.
             let was_below = step == 0 || self.below.contains(&number);
             if was_below || self.tank.inside_opening(place.x, place.y) > 0.0 {
                 continue;

@@ -1,8 +1,8 @@
 //! Whether a disc passed between two fixed ones where there is no way through.
 //!
 //! A wall of fixed discs is soft: a grain that is fast or heavy enough squeezes through. Neighbours
-//! whose gap is too narrow even for the smallest grain are taken to form a wall, and no centre may
-//! cross the line between theirs.
+//! whose gap is too narrow even for the smallest grain are taken to form a wall, and no grain's
+//! centre may cross the line between their centres.
 
 use super::Free;
 use crate::particles::Particles;
@@ -10,7 +10,7 @@ use crate::scene::{FixedSphere, FixedSpheres, Scene, Shape};
 use crate::simulation::{Guard, Instability};
 
 /// A point of the plane, x and z (m).
-pub(super) type Point = [f64; 2];
+pub(super) type PlanePoint = [f64; 2];
 
 /// Checks the ways of the centres of the discs.
 pub(super) struct LeakWatch {
@@ -18,11 +18,11 @@ pub(super) struct LeakWatch {
     /// Walls and door, while the door is closed.
     closed: Option<Barrier>,
     /// Number and centre of each disc at the latest check, in the order of their numbers.
-    pub(super) before: Vec<(u32, Point)>,
+    pub(super) before: Vec<(u32, PlanePoint)>,
 }
 
 impl LeakWatch {
-    /// A watch over a scene of discs. None for spheres, whose walls have holes.
+    /// A watch over a scene of discs. `None` for spheres, whose walls have holes.
     pub(super) fn of_scene(scene: &Scene, fixed: &FixedSpheres) -> Option<Self> {
         let narrow = 2.0 * scene.smallest_radius();
         let with_door = [&fixed.walls[..], &fixed.door[..]].concat();
@@ -82,14 +82,14 @@ impl LeakWatch {
     }
 }
 
-fn place(particles: &Particles, i: usize) -> Point {
+fn place(particles: &Particles, i: usize) -> PlanePoint {
     [particles.position[i].x, particles.position[i].z]
 }
 
 /// Lines between neighbouring fixed discs, sorted into cells.
 struct Barrier {
-    lines: Vec<[Point; 2]>,
-    low: Point,
+    lines: Vec<[PlanePoint; 2]>,
+    low: PlanePoint,
     width: f64,
     shape: [usize; 2],
     /// Lines that reach into each cell or one next to it.
@@ -100,7 +100,7 @@ impl Barrier {
     /// Lines between all discs whose surfaces are less than `narrow` (m) apart.
     fn new(fixed: &[FixedSphere], narrow: f64) -> Self {
         let pairs = wall_pairs(fixed, narrow).into_iter();
-        let lines: Vec<[Point; 2]> = pairs.map(|pair| pair.each_ref().map(centre)).collect();
+        let lines: Vec<[PlanePoint; 2]> = pairs.map(|pair| pair.each_ref().map(centre)).collect();
         let ends = || lines.iter().flatten();
         let longest = lines
             .iter()
@@ -139,8 +139,8 @@ impl Barrier {
     }
 
     /// The ends of the first line that the way from one point to another crosses.
-    fn crossed(&self, from: Point, to: Point) -> Option<[Point; 2]> {
-        let crosses = |line: &[Point; 2]| crosses([from, to], *line);
+    fn crossed(&self, from: PlanePoint, to: PlanePoint) -> Option<[PlanePoint; 2]> {
+        let crosses = |line: &[PlanePoint; 2]| crosses([from, to], *line);
         if length(from, to) > self.width {
             // The way is longer than a cell, so all lines are tested.
             return self.lines.iter().find(|line| crosses(line)).copied();
@@ -196,17 +196,17 @@ pub(in crate::dem) fn wall_pairs(fixed: &[FixedSphere], narrow: f64) -> Vec<[Fix
     pairs
 }
 
-fn centre(sphere: &FixedSphere) -> Point {
+fn centre(sphere: &FixedSphere) -> PlanePoint {
     [sphere.position[0], sphere.position[2]]
 }
 
-fn length(a: Point, b: Point) -> f64 {
+fn length(a: PlanePoint, b: PlanePoint) -> f64 {
     libm::hypot(b[0] - a[0], b[1] - a[1])
 }
 
 /// Whether two lines between points cross each other.
-fn crosses([a, b]: [Point; 2], [c, d]: [Point; 2]) -> bool {
-    let side = |p: Point, q: Point, r: Point| {
+fn crosses([a, b]: [PlanePoint; 2], [c, d]: [PlanePoint; 2]) -> bool {
+    let side = |p: PlanePoint, q: PlanePoint, r: PlanePoint| {
         (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
     };
     let apart = |one: f64, other: f64| (one > 0.0) != (other > 0.0);
@@ -250,9 +250,9 @@ mod tests {
         assert!(Barrier::new(&[], 0.03).crossed(way.0, way.1).is_none());
     }
 
-    /// Symptom: a grain that bounced off the foot of a wall was said to have passed it, and the
-    /// silo as printed named two discs with a third between them. Cause: second neighbours made
-    /// walls too.
+    /// Symptom: a grain that bounced off the foot of a wall was reported to have passed it, and the
+    /// report on the published silo named two discs with a third between them. Cause: second
+    /// neighbours made walls too.
     #[test]
     fn walls_do_not_cut_corners() {
         let disc = |x: f64, z: f64| FixedSphere {

@@ -1,7 +1,7 @@
 //! What happens to the set of spheres while a simulation runs: a feed, a door, an outlet.
 //!
-//! All of it happens between steps, at fixed moments: every [`INTERVAL`] s, and when a sphere is
-//! due. So it does not depend on the frames of a run.
+//! These things happen between steps, at fixed moments: every [`INTERVAL`] s, and when a sphere is
+//! due. So they do not depend on the frames of a run.
 
 mod feed;
 mod floor;
@@ -31,7 +31,7 @@ pub(super) struct Process {
     steps: u64,
     feed: Feed,
     /// The door, while it is closed and is to open.
-    door: Option<Door>,
+    door: Option<ClosedDoor>,
     rest: Option<RestWatch>,
     outlet: Option<f64>,
     free: Free,
@@ -46,7 +46,7 @@ pub(super) struct Process {
 }
 
 /// A closed door.
-struct Door {
+struct ClosedDoor {
     spheres: std::ops::Range<usize>,
     /// Step at which it opens, if that does not depend on the spheres.
     step: Option<u64>,
@@ -84,7 +84,7 @@ impl Free {
 }
 
 impl Process {
-    /// The process of a scene, or none if all spheres stay from the start to the end. `present`
+    /// The process of a scene, or `None` if all spheres stay from the start to the end. `present`
     /// moving spheres are in from the start.
     pub(super) fn of_scene(scene: &Scene, feed: Option<Feed>, present: usize) -> Option<Self> {
         let dt = scene.time.dt;
@@ -105,7 +105,7 @@ impl Process {
                 dt,
                 steps: ((INTERVAL / dt).round() as u64).max(1),
                 feed: feed.unwrap_or_default(),
-                door: scene.dem.door.as_ref().map(|door| Door {
+                door: scene.dem.door.as_ref().map(|door| ClosedDoor {
                     spheres: walls..walls + fixed.door.len(),
                     step: door.opens.map(|time| (time / dt).round() as u64),
                 }),
@@ -162,7 +162,7 @@ impl Process {
         &self.milestones
     }
 
-    /// Advances an engine to a step and does on the way what is due.
+    /// Advances an engine to a step and does what is due on the way.
     pub(super) fn advance(&mut self, engine: &mut dyn Engine, end: u64) -> Result<(), Instability> {
         while engine.step() < end {
             let step = engine.step();
@@ -262,7 +262,7 @@ impl Process {
     }
 
     fn end(&mut self, particles: &Particles, step: u64, at_rest: Option<u64>) {
-        // Where all spheres are driven, nothing can be over before its time.
+        // If all spheres are driven, nothing can end early.
         if !self.feed.is_empty() || self.ended || self.free.count == 0 {
             return;
         }

@@ -1,6 +1,6 @@
 //! The state of a process: what changes while it runs. The rest follows from the scene.
 
-use super::leak::Point;
+use super::leak::PlanePoint;
 use super::{LeakWatch, Process};
 use crate::dem::state::StateError;
 use crate::simulation::Milestone;
@@ -17,7 +17,7 @@ pub(in crate::dem) struct ProcessState {
     /// Step since which the spheres have been slow.
     slow_since: Option<u64>,
     /// Number and position of each disc at the latest check of the walls.
-    watched: Vec<(u32, Point)>,
+    watched: Vec<(u32, PlanePoint)>,
     /// Numbers of the spheres below a floor with an opening.
     below: BTreeSet<u32>,
     milestones: Vec<Milestone>,

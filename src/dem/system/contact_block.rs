@@ -16,7 +16,7 @@ use super::contact_task::TooDeep;
 use super::lanes::{PropertyColumns, WallContactColumns};
 use crate::forces::contact::NormalLaw;
 use crate::forces::friction::{History, TangentialLaw, Turning};
-use crate::particles::block::{BLOCK, Column, Columns, Row};
+use crate::particles::block::{BLOCK, BlockColumn, VectorColumns, VectorRow};
 use crate::particles::math::inverse_square_root;
 use crate::particles::vector::Vector;
 use std::marker::PhantomData;
@@ -25,51 +25,50 @@ use std::marker::PhantomData;
 const NOT_DEEP: f64 = -1.0;
 
 /// Velocity and spin of a sphere before an evaluation of forces, in rows.
-pub(super) type EarlierRows = [Row; 2];
+pub(super) type EarlierRows = [VectorRow; 2];
 
 /// Everything about the pairs of a block.
 pub(super) struct ContactBlock<H> {
-    /// Centre of the first sphere from that of the second, or from the origin at a wall (m).
-    offset: Columns,
+    /// Offset of the first centre from the second, or from the origin at a wall (m).
+    offset: VectorColumns,
     /// Velocity of the first relative to the second (m/s).
-    velocity: Columns,
+    velocity: VectorColumns,
     /// Spins of both (rad/s).
-    spin: [Columns; 2],
-    /// Earlier velocities and spins, if springs are loaded by these.
-    earlier_velocity: Columns,
-    earlier_spin: [Columns; 2],
+    spin: [VectorColumns; 2],
+    /// Earlier velocities and spins, if they load springs.
+    earlier_velocity: VectorColumns,
+    earlier_spin: [VectorColumns; 2],
     /// Properties of both, which do not change from step to step.
     properties: [PropertyColumns; 2],
     /// Whether all spheres are alike.
     alike: bool,
     /// 1 / (r1 + r2) of a pair (1/m).
-    inverse_sum: Column,
+    inverse_sum: BlockColumn,
     /// [`Roots`] of every pair.
-    inverse_distance: Column,
-    contact_radius: Column,
-    effective_mass: Column,
+    inverse_distance: BlockColumn,
+    contact_radius: BlockColumn,
+    effective_mass: BlockColumn,
     /// Contacts with a wall, present and earlier.
     wall_contact: WallContactColumns,
     earlier_wall_contact: WallContactColumns,
-    /// Forces of springs (N), and the contact radii (m) at which they had them, if the law has
-    /// these.
-    spring: Columns,
-    spring_radius: Column,
+    /// Forces of springs (N), and the contact radii (m) for which they hold, if the law has these.
+    spring: VectorColumns,
+    spring_radius: BlockColumn,
     /// [`Turning`] of every contact, if the law has it.
-    turning_force: Columns,
-    turning_normal_force: Column,
-    turning_peak: Column,
+    turning_force: VectorColumns,
+    turning_normal_force: BlockColumn,
+    turning_peak: BlockColumn,
     /// For friction with a history: forces of dashpots (N), limits of friction (N), squared forces
     /// of spring and dashpot (N2), the inverse roots of these squares, and levers in radii.
-    drag: Columns,
-    limit: Column,
-    squared: Column,
-    inverse_root: Column,
-    lever: Column,
-    force: Columns,
-    torque: [Columns; 2],
+    drag: VectorColumns,
+    limit: BlockColumn,
+    squared: BlockColumn,
+    inverse_root: BlockColumn,
+    lever: BlockColumn,
+    force: VectorColumns,
+    torque: [VectorColumns; 2],
     /// Overlap of a pair beyond the limit (m), else [`NOT_DEEP`].
-    too_deep: Column,
+    too_deep: BlockColumn,
     history: PhantomData<H>,
 }
 
@@ -78,12 +77,12 @@ impl<H: History> ContactBlock<H> {
     pub(super) const HAS_HISTORY: bool = size_of::<H>() > 0;
 
     pub(super) fn new() -> Self {
-        let pair = || [Columns::ZERO, Columns::ZERO];
+        let pair = || [VectorColumns::ZERO, VectorColumns::ZERO];
         Self {
-            offset: Columns::ZERO,
-            velocity: Columns::ZERO,
+            offset: VectorColumns::ZERO,
+            velocity: VectorColumns::ZERO,
             spin: pair(),
-            earlier_velocity: Columns::ZERO,
+            earlier_velocity: VectorColumns::ZERO,
             earlier_spin: pair(),
             properties: [
                 PropertyColumns::all(SphereProperties::WALL),
@@ -96,18 +95,18 @@ impl<H: History> ContactBlock<H> {
             effective_mass: [0.0; BLOCK],
             wall_contact: WallContactColumns::NONE,
             earlier_wall_contact: WallContactColumns::NONE,
-            spring: Columns::ZERO,
+            spring: VectorColumns::ZERO,
             spring_radius: [0.0; BLOCK],
-            turning_force: Columns::ZERO,
+            turning_force: VectorColumns::ZERO,
             turning_normal_force: [0.0; BLOCK],
             turning_peak: [0.0; BLOCK],
-            drag: Columns::ZERO,
+            drag: VectorColumns::ZERO,
             limit: [0.0; BLOCK],
             squared: [0.0; BLOCK],
             inverse_root: [0.0; BLOCK],
             lever: [0.0; BLOCK],
             history: PhantomData,
-            force: Columns::ZERO,
+            force: VectorColumns::ZERO,
             torque: pair(),
             too_deep: [NOT_DEEP; BLOCK],
         }
@@ -124,7 +123,7 @@ impl<H: History> ContactBlock<H> {
                 PropertyColumns::all(properties),
                 PropertyColumns::all(properties),
             ];
-            self.spin[1] = Columns::ZERO;
+            self.spin[1] = VectorColumns::ZERO;
             self.inverse_sum = [1.0 / (properties.radius + properties.radius); BLOCK];
             self.effective_mass = [Laws::<N, T>::effective_mass([properties, properties]); BLOCK];
         }
@@ -184,7 +183,7 @@ impl<H: History> ContactBlock<H> {
     }
 
     /// The state of a contact whose second partner has the properties `other`. It includes the
-    /// earlier motion if springs are loaded by that.
+    /// earlier motion if this loads springs.
     #[inline(always)]
     fn contact_state<T: TangentialLaw, const EARLIER: bool>(
         &self,
@@ -264,7 +263,7 @@ impl<H: History> ContactBlock<H> {
     }
 
     /// The first of these contacts that is beyond the overlap limit: its sphere and overlap.
-    /// `sphere_of` tells the sphere of a lane, if it has one that yields.
+    /// `sphere_of` returns the sphere of a lane, if forces move it.
     #[inline(always)]
     pub(super) fn first_too_deep(
         &self,
@@ -280,7 +279,7 @@ impl<H: History> ContactBlock<H> {
     }
 }
 
-/// What a contact remembers, or nothing if the two do not touch.
+/// What a contact remembers, or zero if the two do not touch.
 #[inline(always)]
 fn if_loaded(loaded: &LoadedContact, turning: Turning) -> Turning {
     match loaded.touches {
@@ -291,7 +290,7 @@ fn if_loaded(loaded: &LoadedContact, turning: Turning) -> Turning {
 
 /// Stores what acts on a touching pair.
 #[inline(always)]
-fn store(columns: &mut Columns, k: usize, touches: bool, vector: Vector) {
+fn store(columns: &mut VectorColumns, k: usize, touches: bool, vector: Vector) {
     let [x, y, z] = &mut columns.0;
     x[k] = if_touching(touches, vector.x);
     y[k] = if_touching(touches, vector.y);

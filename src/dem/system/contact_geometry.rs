@@ -11,8 +11,8 @@ use crate::forces::friction::{TangentialLaw, sliding_velocity};
 use crate::particles::math::inverse_square_root;
 use crate::particles::vector::Vector;
 
-/// 1 / x, or zero of zero: a contact between partners that both keep to their ways moves nothing,
-/// whatever its force, which must stay a number.
+/// 1 / x, or 0 for x = 0. Two driven or fixed partners have infinite mass: their contact moves
+/// nothing, but its force must stay finite.
 #[inline(always)]
 pub(super) fn inverse_or_zero(x: f64) -> f64 {
     if x > 0.0 { 1.0 / x } else { 0.0 }
@@ -36,7 +36,7 @@ pub(super) struct ContactGeometry {
     pub(super) lever: f64,
     /// Mass of the lighter partner (kg).
     pub(super) lesser_mass: f64,
-    /// The contact by which a spring is loaded, if that is not the present one.
+    /// The earlier contact that loads the spring, if the present one does not.
     pub(super) loading: Option<EarlierContact>,
 }
 
@@ -76,7 +76,7 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
         contact_radius(overlap, state.effective_radius())
     }
 
-    /// 1 / (1 / m1 + 1 / m2) (kg), if a law needs it; zero where neither partner yields.
+    /// 1 / (1 / m1 + 1 / m2) (kg), if a law needs it; zero if forces move neither partner.
     #[inline(always)]
     pub(super) fn effective_mass([one, other]: [SphereProperties; 2]) -> f64 {
         match Self::NEEDS_EFFECTIVE_MASS {
@@ -117,8 +117,8 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
             let inverse_distance = inverse_square_root(distance_squared);
             let normal = offset * inverse_distance;
             let distance = distance_squared * inverse_distance;
-            // The lever too must be that of the earlier moment: with the present one, spins load
-            // springs with an error of first order in the time step.
+            // The lever must also be taken at the earlier moment: with the present lever, spins
+            // load springs with an error of first order in the time step.
             let lever = distance * state.inverse_sum;
             let levers = state.properties.map(|it| it.radius * lever);
             let sliding = sliding_velocity(normal, earlier.velocity, earlier.spin, levers);
@@ -132,7 +132,7 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
         geometry
     }
 
-    /// A sphere whose contact with a wall is known, and the earlier one if that loads springs.
+    /// A sphere whose contact with a wall is known, with the earlier contact if this loads springs.
     #[inline(always)]
     pub(super) fn geometry_at_wall(
         &self,
@@ -183,7 +183,7 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
         }
     }
 
-    /// How much the normal at a wall changes, from the present one and that of half way.
+    /// How much the normal at a wall changes, from the normals now and half way.
     #[inline(always)]
     pub(super) fn turn_at_wall(&self, normal: Vector, earlier: Vector) -> Vector {
         (normal - earlier) * (self.loading.duration / self.loading.age)

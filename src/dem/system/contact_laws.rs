@@ -8,7 +8,7 @@ use super::contact_state::ContactState;
 use crate::dem::walls::Wall;
 use crate::forces::contact::NormalLaw;
 use crate::forces::friction::{
-    Change, History, LoadedSpring, Spring, TangentialLaw, Touch, Traction, Turning,
+    ForceChange, History, LoadedSpring, Spring, TangentialLaw, Touch, Traction, Turning,
     sliding_velocity,
 };
 use crate::particles::math::inverse_square_root;
@@ -21,7 +21,7 @@ pub(super) struct Loading {
     /// How long it is (s).
     pub(super) duration: f64,
     /// How long before the evaluation the spheres had the velocities that load springs (s). These
-    /// are then kept in rows of their own. Zero if they are those of the evaluation.
+    /// are then kept in separate rows. Zero if the velocities of the evaluation load springs.
     pub(super) age: f64,
 }
 
@@ -32,7 +32,7 @@ impl Loading {
     }
 
     /// As [`earlier`](Self::earlier), by the velocities of the evaluation: turning and sliding are
-    /// of second order then, and the age is next to nothing.
+    /// then of second order, and the age is negligible.
     pub(super) fn just_now(duration: f64) -> Self {
         let age = duration / 1024.0;
         Self { duration, age }
@@ -49,7 +49,7 @@ impl Loading {
 pub(super) struct Laws<N, T> {
     pub(super) normal: N,
     pub(super) tangential: T,
-    /// The tangential law at walls, whose coefficient of friction may be another.
+    /// The tangential law at walls, whose coefficient of friction may differ.
     pub(super) tangential_at_walls: T,
     pub(super) loading: Loading,
     /// Largest overlap, in radii of the smaller partner.
@@ -78,7 +78,7 @@ pub(super) struct ContactForce {
 
 /// A contact with its tangential spring loaded, before the limit of friction applies.
 pub(super) struct LoadedContact {
-    /// As those of a [`ContactForce`].
+    /// As in a [`ContactForce`].
     pub(super) touches: bool,
     pub(super) too_deep: bool,
     pub(super) overlap: f64,
@@ -135,14 +135,14 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
         self.geometry(state, roots)
     }
 
-    /// The forces of a history, if it has any, turned into the plane of a contact and changed with
+    /// The forces of a history, if it has any, turned into the plane of a contact and adjusted to
     /// its radius.
     #[inline(always)]
     fn brought_here(&self, history: T::History, geometry: &ContactGeometry) -> T::History {
         if !Self::HAS_HISTORY {
             return history;
         }
-        let turned = |force: Vector, change: Change| {
+        let turned = |force: Vector, change: ForceChange| {
             let spring = Spring { force };
             match geometry.loading {
                 Some(earlier) => spring.turned_by(geometry.normal, earlier.turn, change),
@@ -151,7 +151,7 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
         };
         let change = match T::History::HAS_RADIUS {
             true => (self.tangential.keeps()).change(history.radius(), geometry.contact_radius),
-            false => Change::NONE,
+            false => ForceChange::NONE,
         };
         let now = T::History::of_spring(turned(history.spring().force, change));
         if !T::History::TURNS {
@@ -159,7 +159,7 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
         }
         let turning = history.turning();
         now.with_turning(Turning {
-            force: turned(turning.force, Change::NONE).force,
+            force: turned(turning.force, ForceChange::NONE).force,
             ..turning
         })
     }
@@ -287,7 +287,7 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
         NormalForce { along, total }
     }
 
-    /// The contact as friction sees it.
+    /// The contact in the form that friction laws take.
     #[inline(always)]
     fn touch(
         &self,

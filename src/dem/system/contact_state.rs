@@ -5,13 +5,13 @@ use super::partners::Partners;
 use crate::forces::contact::NormalLaw;
 use crate::forces::friction::TangentialLaw;
 use crate::particles::Particles;
-use crate::particles::block::Row;
+use crate::particles::block::VectorRow;
 use crate::particles::vector::Vector;
 
 /// Two spheres at a contact, or a sphere and a wall. Forces act on the first.
 #[derive(Clone, Copy)]
 pub(super) struct ContactState {
-    /// Centre of the first from that of the second, or from the origin (m).
+    /// Offset of the first centre from the second, or from the origin (m).
     pub(super) offset: Vector,
     /// Velocity of the first relative to the second (m/s).
     pub(super) velocity: Vector,
@@ -21,7 +21,7 @@ pub(super) struct ContactState {
     pub(super) properties: [SphereProperties; 2],
     /// 1 / (r1 + r2) (1/m).
     pub(super) inverse_sum: f64,
-    /// The earlier motion, if springs are loaded by that and not by the present one.
+    /// The earlier motion, if it loads springs instead of the present motion.
     pub(super) earlier: Option<EarlierMotion>,
 }
 
@@ -60,7 +60,7 @@ impl ContactState {
             spin: [of(spheres.spin), Vector::ZERO],
             properties: [sphere, SphereProperties::WALL],
             inverse_sum: 1.0 / sphere.radius,
-            earlier: earlier.map(|&[velocity, spin]: &[Row; 2]| EarlierMotion {
+            earlier: earlier.map(|&[velocity, spin]: &[VectorRow; 2]| EarlierMotion {
                 velocity: Vector::of_row(velocity),
                 spin: [Vector::of_row(spin), Vector::ZERO],
             }),
@@ -82,7 +82,7 @@ pub(super) struct SphereProperties {
     pub(super) radius: f64,
     /// Mass (kg).
     pub(super) mass: f64,
-    /// Inverse mass (1/kg), zero of what does not move.
+    /// Inverse mass (1/kg), zero for what does not move.
     pub(super) inverse_mass: f64,
     /// Moment of inertia (kg m2).
     pub(super) inertia: f64,
@@ -107,7 +107,7 @@ impl SphereProperties {
             ..
         } = particles;
         let same = |values: &[f64]| values.windows(2).all(|pair| pair[0] == pair[1]);
-        // Only the effective mass tells fixed spheres from others.
+        // Only the effective mass distinguishes fixed spheres from others.
         let reads_inverse_mass = Laws::<N, T>::NEEDS_EFFECTIVE_MASS;
         let alike = same(radius)
             && same(mass)

@@ -1,5 +1,5 @@
-//! Forces at contacts, block by block: which of them touch, and the forces that result. One thread
-//! computes all of them, or each thread those on its own spheres.
+//! Forces at contacts, block by block: which candidates touch, and the resulting forces. One thread
+//! computes all of them, or each thread the forces on its own spheres.
 
 use super::candidates::{AtWalls, Candidates};
 use super::contact_block::ContactBlock;
@@ -11,7 +11,7 @@ use super::sums::Sums;
 use super::touching::{CHUNK, Touching};
 use super::wall_contacts::NearSphere;
 use crate::dem::neighbours::NearPair;
-use crate::dem::profile::{self, Part, Profile};
+use crate::dem::profile::{self, Profile, StepPart};
 use crate::dem::threads::{split, split_shared};
 use crate::dem::walls::TankWall;
 use crate::forces::contact::NormalLaw;
@@ -62,9 +62,9 @@ pub(super) type TooDeep = Option<(usize, f64)>;
 /// Which pairs of a thread.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum PairKind {
-    /// Those whose first sphere belongs to another thread.
+    /// Pairs whose first sphere belongs to another thread.
     Crossing,
-    /// Those whose first sphere is its own.
+    /// Pairs whose first sphere is its own.
     Own,
 }
 
@@ -92,7 +92,7 @@ pub(super) struct ContactTask<'a, H> {
     pub(super) sums: Sums<'a>,
     pub(super) buffers: &'a mut Buffers<H>,
     /// Pairs whose first sphere belongs to another thread. That thread computes the force on it and
-    /// keeps the history, of which this is a copy.
+    /// keeps the original of this history.
     pub(super) crossing: ContactSlice<'a, NearPair, H>,
     /// Pairs whose first sphere belongs to this thread.
     pub(super) pairs: ContactSlice<'a, NearPair, H>,
@@ -148,7 +148,7 @@ impl<'a, H: History> ContactTask<'a, H> {
         if self.sums.clear {
             self.sums.force.fill(Vector::ZERO);
             self.sums.torque.fill(Vector::ZERO);
-            profile::mark(profile, Part::Rest);
+            profile::mark(profile, StepPart::Rest);
         }
         self.buffers.block.set_alike::<N, T>(settings.alike);
         // In one loop, so that the code in it is compiled once for each instruction set.
@@ -158,7 +158,7 @@ impl<'a, H: History> ContactTask<'a, H> {
         if !N::ACTS {
             return;
         }
-        profile::mark(profile, Part::Pairs);
+        profile::mark(profile, StepPart::Pairs);
         for place in 0..TankWall::MOST {
             let Some((wall, _)) = &self.walls[place] else {
                 break;

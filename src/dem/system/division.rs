@@ -13,7 +13,7 @@ use super::partners::{Copies, Partners};
 use super::stream::Stream;
 use super::sums::Sums;
 use super::wall_contacts::WallContacts;
-use crate::dem::bodies::Spheres;
+use crate::dem::bodies::SphereRows;
 use crate::dem::neighbours::NearPair;
 use crate::dem::threads::in_parallel;
 use crate::dem::walls::TankWall;
@@ -29,13 +29,14 @@ const NARROW: usize = 8;
 
 /// The division of spheres and contacts among threads.
 pub(super) struct Division<H> {
-    regions: Vec<Region<H>>,
-    /// One before each region but the first: the range that holds all pairs across the boundary.
+    regions: Vec<ThreadRegion<H>>,
+    /// For each region but the first, the range of spheres that holds all pairs across the boundary
+    /// before it.
     boundaries: Vec<Copies>,
 }
 
 /// The part of one thread.
-struct Region<H> {
+struct ThreadRegion<H> {
     spheres: Range<usize>,
     /// Near pairs whose first sphere is one of these.
     pairs: Range<usize>,
@@ -55,7 +56,7 @@ pub(super) struct ThreadContacts<'a, H> {
 }
 
 impl<'a, H> ThreadContacts<'a, H> {
-    /// Those of a thread that computes all.
+    /// The contacts of a thread that computes all.
     pub(super) fn all(candidates: Candidates<'a, H>, buffers: &'a mut Buffers<H>) -> Self {
         Self {
             crossing: ContactSlice::none(),
@@ -69,7 +70,7 @@ impl<'a, H> ThreadContacts<'a, H> {
 impl<H: History> Division<H> {
     /// An empty division among this number of threads.
     pub(super) fn new(threads: usize) -> Self {
-        let region = || Region {
+        let region = || ThreadRegion {
             spheres: 0..0,
             pairs: 0..0,
             walls: [const { 0..0 }; TankWall::MOST],
@@ -143,7 +144,7 @@ impl<H: History> Division<H> {
 
     /// The spheres and contacts of each thread, out of all contacts.
     fn thread_contacts<'a>(
-        regions: &'a mut [Region<H>],
+        regions: &'a mut [ThreadRegion<H>],
         candidates: Candidates<'a, H>,
     ) -> impl Iterator<Item = (Range<usize>, ThreadContacts<'a, H>)> {
         let Candidates {
@@ -198,7 +199,7 @@ impl<H: History> Division<H> {
     /// The work of each thread, if it moves its spheres in the same pass.
     pub(super) fn streams<'a>(
         &'a mut self,
-        mut all: Spheres<'a>,
+        mut all: SphereRows<'a>,
         candidates: Candidates<'a, H>,
         bodies: &'a mut [Bodies],
     ) -> Vec<Stream<'a, H>> {

@@ -1,12 +1,12 @@
 //! Spheres that move along prescribed paths.
 //!
 //! Such a sphere has infinite inertia, so that forces leave its velocity alone. In every step it
-//! has the velocity that takes it to where its path is at the end of the step. It passes walls,
-//! fixed spheres and others of its kind: forces between them are computed, and move nothing, so
-//! that no guard looks at their overlaps.
+//! has the velocity that takes it to the point of its path at the end of the step. It passes
+//! through walls, fixed spheres and other driven spheres: forces between them are computed but move
+//! nothing, so no guard checks their overlaps.
 //!
 //! A path names its sphere by the number in the scene. The index in memory changes when spheres
-//! come, go or are sorted, so it is found again then.
+//! come, go or are sorted, and is then found again.
 
 use super::System;
 use crate::forces::contact::NormalLaw;

@@ -8,8 +8,8 @@ use super::partners::Partners;
 use super::sums::Sums;
 use super::touching::exceed_caches;
 use super::{NeighbourState, System};
-use crate::dem::bodies::Spheres;
-use crate::dem::profile::{self, Part};
+use crate::dem::bodies::SphereRows;
+use crate::dem::profile::{self, StepPart};
 use crate::forces::contact::NormalLaw;
 use crate::forces::friction::TangentialLaw;
 use crate::simulation::Instability;
@@ -30,7 +30,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         self.check_overlaps()
     }
 
-    /// Finds the near pairs again, if the present ones do not hold.
+    /// Finds the near pairs again, if the present list does not hold.
     fn hold_near(&mut self) -> Result<(), Instability> {
         let NeighbourState {
             near,
@@ -53,7 +53,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         }
         let clear = !std::mem::take(&mut self.step.forces_are_zero);
         let settings = self.settings();
-        let mut spheres = Spheres::new(&mut self.particles, &[]);
+        let mut spheres = SphereRows::new(&mut self.particles, &[]);
         let (partners, [force, torque]) = Partners::of(&mut spheres, &self.earlier);
         let sums = Sums {
             first: 0,
@@ -69,7 +69,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         let too_deep = match &mut self.division {
             Some(division) => {
                 let found = division.evaluate(self.level, &settings, partners, sums, candidates);
-                profile::mark(&mut self.profile, Part::Pairs);
+                profile::mark(&mut self.profile, StepPart::Pairs);
                 found
             }
             None => {
@@ -84,7 +84,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
 
     /// Evaluates all forces and moves all spheres. Returns the first sphere beyond its speed limit.
     ///
-    /// If an overlap is too deep in a large scene, its spheres are moved all the same, whatever the
+    /// If an overlap is too deep in a large scene, its spheres are moved nevertheless, for any
     /// number of threads.
     pub(super) fn evaluate_and_move(
         &mut self,
@@ -143,11 +143,11 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         if self.setup.shielded {
             let (near, particles) = (&mut self.neighbours.near, &self.particles);
             near.count_shielding(self.level, particles);
-            self.mark(Part::Shield);
+            self.mark(StepPart::Shield);
         }
         for (place, effect) in &mut self.setup.effects {
             effect.prepare(self.neighbours.near.shielding());
-            profile::mark(&mut self.profile, Part::Effect(*place));
+            profile::mark(&mut self.profile, StepPart::Effect(*place));
         }
     }
 

@@ -4,9 +4,9 @@ use super::contact_block::EarlierRows;
 use super::contact_laws::Loading;
 use super::division::threads;
 use super::moves::{FirstTooFast, Motion, Moves};
-use super::{Setup, System};
-use crate::dem::bodies::Spheres;
-use crate::dem::profile::{self, Part};
+use super::{System, SystemSetup};
+use crate::dem::bodies::SphereRows;
+use crate::dem::profile::{self, StepPart};
 use crate::forces::contact::NormalLaw;
 use crate::forces::friction::TangentialLaw;
 use crate::particles::Particles;
@@ -27,12 +27,12 @@ enum Next {
 
 /// Velocities and spins before a prediction.
 #[derive(Default)]
-pub(super) struct Before {
+pub(super) struct MotionBefore {
     velocity: Vec<Vector>,
     spin: Vec<Vector>,
 }
 
-impl Before {
+impl MotionBefore {
     fn keep(&mut self, particles: &Particles) {
         self.velocity.clone_from(&particles.velocity);
         self.spin.clone_from(&particles.spin);
@@ -79,7 +79,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         self.bodies
             .resize_with(threads(self.division.as_ref()), Bodies::new);
         let found = moves.apply(
-            Spheres::new(&mut self.particles, reference),
+            SphereRows::new(&mut self.particles, reference),
             &mut self.bodies,
             self.level,
             &mut self.profile,
@@ -116,7 +116,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         };
         // The guard was broken in the middle of a step.
         (self.step.number, self.step.first_half_done) = (step, false);
-        let Setup { limits, dt, .. } = &self.setup;
+        let SystemSetup { limits, dt, .. } = &self.setup;
         Err(limits.speed_broken(step, *dt, it))
     }
 
@@ -135,7 +135,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                 Integrator::SynchronisedVerlet => self.synchronised_verlet()?,
                 Integrator::AdaptiveVerlet => self.adaptive_verlet()?,
             }
-            self.mark(Part::Rest);
+            self.mark(StepPart::Rest);
         }
         Ok(())
     }
@@ -172,7 +172,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             self.evaluate_and_move(Motion {
                 kicks: &[dt],
                 drift: Some(dt),
-                // Forces of the last step are read by others.
+                // Others read the forces of the last step.
                 clear: next == Next::Step && self.neighbours.list.is_some(),
             })?
         };
@@ -180,7 +180,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     }
 
     /// One step of velocity Verlet, with forces from the new positions and the half-step
-    /// velocities. The forces of the step before serve its first half. If another step follows at
+    /// velocities. Its first half uses the forces of the step before. If another step follows at
     /// once, its first half is joined with the second half of this one.
     fn velocity_verlet(&mut self, next: Next) -> Result<(), Instability> {
         self.begin_step();
@@ -224,9 +224,9 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     /// step one of second order.
     ///
     /// Places and velocities of a contact then belong together, which Vyas et al., Comput. Phys.
-    /// Commun. 310, 109524 (2025), reach by other means: with normals of one moment and velocities
-    /// of another, the approach of a small sphere to a large one that it rolls along is taken for
-    /// sliding, and loads its spring until it sticks.
+    /// Commun. 310, 109524 (2025), achieve in another way. If normals and velocities belong to
+    /// different moments, the approach of a small sphere that rolls along a large one is taken for
+    /// sliding and loads its spring until it sticks.
     fn synchronised_verlet(&mut self) -> Result<(), Instability> {
         self.begin_step();
         if self.step.number == 1 {

@@ -6,7 +6,7 @@ use super::partners::Partners;
 use crate::dem::walls::WallContact;
 use crate::forces::contact::NormalLaw;
 use crate::forces::friction::TangentialLaw;
-use crate::particles::block::{BLOCK, Column, Columns};
+use crate::particles::block::{BLOCK, BlockColumn, VectorColumns};
 
 /// A block of contacts; lanes without one repeat the first.
 #[inline(always)]
@@ -27,10 +27,10 @@ pub(super) fn full_block<'a, C: Copy>(
 
 /// Properties of the spheres of a block, which do not change with time.
 pub(super) struct PropertyColumns {
-    pub(super) radius: Column,
-    mass: Column,
-    inverse_mass: Column,
-    inertia: Column,
+    pub(super) radius: BlockColumn,
+    mass: BlockColumn,
+    inverse_mass: BlockColumn,
+    inertia: BlockColumn,
 }
 
 impl PropertyColumns {
@@ -43,7 +43,7 @@ impl PropertyColumns {
         }
     }
 
-    /// Gathers those of the sphere of every lane, as far as the laws need them.
+    /// Gathers the properties of each lane's sphere, as far as the laws need them.
     #[inline(always)]
     pub(super) fn gather<N: NormalLaw, T: TangentialLaw>(
         &mut self,
@@ -79,15 +79,15 @@ impl PropertyColumns {
 
 /// Contacts of the spheres of a block with a wall.
 pub(super) struct WallContactColumns {
-    normal: Columns,
-    overlap: Column,
+    normal: VectorColumns,
+    overlap: BlockColumn,
     /// 1 where they touch, else 0.
-    touches: Column,
+    touches: BlockColumn,
 }
 
 impl WallContactColumns {
     pub(super) const NONE: Self = Self {
-        normal: Columns::ZERO,
+        normal: VectorColumns::ZERO,
         overlap: [0.0; BLOCK],
         touches: [0.0; BLOCK],
     };

@@ -12,7 +12,7 @@ use super::partners::Partners;
 use super::wall_contacts::NearSphere;
 use super::{Engine, System};
 use crate::dem::neighbours::NearPair;
-use crate::dem::profile::Part;
+use crate::dem::profile::StepPart;
 use crate::dem::walls::TankWall;
 use crate::forces::contact::NormalLaw;
 use crate::forces::friction::TangentialLaw;
@@ -23,21 +23,21 @@ use serde::{Deserialize, Serialize};
 
 /// Work since the start (J).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub(in crate::dem) struct Work {
+pub(in crate::dem) struct LedgerWork {
     /// Of the damping of contacts, negative where it dissipates.
     pub(in crate::dem) damping: f64,
     /// Of tangential forces.
     pub(in crate::dem) tangential: f64,
     /// Of the air, including the damping of spins.
     pub(in crate::dem) air: f64,
-    /// Energy of spheres that came in, minus that of spheres that left.
+    /// Energy of spheres that came in, minus the energy of spheres that left.
     pub(in crate::dem) brought: f64,
 }
 
 /// The work so far, and the components of the latest forces that do it.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(super) struct Books {
-    pub(super) work: Work,
+    pub(super) work: LedgerWork,
     /// Components of the latest force on each sphere (N) and of its torque (N m).
     damping: Vec<Vector>,
     tangential: Vec<Vector>,
@@ -47,7 +47,7 @@ pub(super) struct Books {
 }
 
 impl Books {
-    /// The components of contacts, and those of the air.
+    /// The components of contacts, and of the air.
     fn components(&mut self) -> ([&mut Vec<Vector>; 3], [&mut Vec<Vector>; 2]) {
         let contacts = [
             &mut self.damping,
@@ -152,7 +152,7 @@ impl Books {
 
 /// The energy balance of a system.
 #[derive(Default)]
-pub(super) struct Ledger {
+pub(super) struct EnergyBooks {
     pub(super) books: Books,
 }
 
@@ -187,7 +187,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         let after = self.energy_in_books();
         if let (Some(ledger), Some(after)) = (&mut self.ledger, after) {
             ledger.books.work.brought += after[0] - before[0];
-            // The energy of springs that are gone was not dissipated by friction.
+            // Friction did not dissipate the energy of springs that left with their spheres.
             ledger.books.work.tangential -= after[1] - before[1];
         }
     }
@@ -201,7 +201,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         for i in particles.fixed..particles.len() {
             ledger.books.note_kick(i, particles, dt);
         }
-        self.mark(Part::Ledger);
+        self.mark(StepPart::Ledger);
     }
 
     /// Notes all contacts, before their forces are evaluated: histories are only read.

@@ -4,9 +4,9 @@ use super::contact_state::SphereProperties;
 use super::division::threads;
 use super::moves::Drift;
 use super::wall_contacts::WallContacts;
-use super::{Age, NeighbourState, Setup, System};
+use super::{Age, NeighbourState, System, SystemSetup};
 use crate::dem::neighbours::{NearPair, Reach, VerletList};
-use crate::dem::profile::Part;
+use crate::dem::profile::StepPart;
 use crate::dem::threads::both;
 use crate::forces::contact::NormalLaw;
 use crate::forces::friction::{History, TangentialLaw};
@@ -27,9 +27,9 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             self.neighbours.age.time,
             self.neighbours.near.reach(),
         ) {
-            self.mark(Part::Near);
+            self.mark(StepPart::Near);
             self.renew()?;
-            self.mark(Part::List);
+            self.mark(StepPart::List);
         }
         self.neighbours.stale = false;
         if let Some(list) = &self.neighbours.list {
@@ -60,7 +60,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                 division.divide(particles.len(), pairs, histories, &self.walls);
             }
         }
-        self.mark(Part::Near);
+        self.mark(StepPart::Near);
         Ok(())
     }
 
@@ -89,8 +89,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             return Ok(());
         }
         let age = std::mem::take(&mut self.neighbours.age);
-        // A list that ended in its first step was replaced because the spheres changed. Its age
-        // says nothing about the skin.
+        // A list that ended in its first step was replaced because spheres changed: its age says
+        // nothing about the skin.
         if age.steps > 0 {
             list.adapt(age.steps, age.time);
         }
@@ -99,14 +99,14 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     }
 
     pub(super) fn check_positions(&self) -> Result<(), Instability> {
-        let Setup { limits, dt, .. } = &self.setup;
+        let SystemSetup { limits, dt, .. } = &self.setup;
         limits.check_positions(&self.particles, self.step.number, *dt)
     }
 }
 
 impl NeighbourState {
     /// For a system with this normal law.
-    pub(super) fn new<N: NormalLaw>(setup: &Setup) -> Self {
+    pub(super) fn new<N: NormalLaw>(setup: &SystemSetup) -> Self {
         let reach = match setup.shielded {
             true => Reach::Column,
             false => Reach::Contact,

@@ -7,8 +7,8 @@ use crate::forces::friction::TangentialLaw;
 use crate::particles::Particles;
 
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
-    /// Energies and number of the contacts. At most the list is built earlier than a step would
-    /// build it, on which no bit of the motion depends.
+    /// Energies and number of the contacts. The list may be built earlier than a step would build
+    /// it, but no bit of the motion depends on that.
     pub(super) fn measure_contacts(&mut self) -> Contacts {
         if !N::ACTS || self.neighbours.list.is_none() {
             return Contacts::default();

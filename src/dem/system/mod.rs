@@ -31,15 +31,15 @@ use self::contact_laws::Loading;
 use self::contact_state::SphereProperties;
 use self::contact_task::{Buffers, TooDeep};
 use self::division::Division;
-use self::integrate::Before;
-use self::ledger::Ledger;
-pub(in crate::dem) use self::ledger::Work;
+use self::integrate::MotionBefore;
+use self::ledger::EnergyBooks;
+pub(in crate::dem) use self::ledger::LedgerWork;
 use self::rolling::RollingState;
 pub(in crate::dem) use self::state::EngineState;
 use self::wall_contacts::WallContacts;
 use super::guard::Limits;
 use super::neighbours::{Near, NearPair, Purpose, VerletList};
-use super::profile::{self, Part, Profile};
+use super::profile::{self, Profile, StepPart};
 use super::state::StateError;
 use super::walls::TankWall;
 use crate::forces::contact::NormalLaw;
@@ -73,10 +73,10 @@ pub(in crate::dem) trait Engine: Send {
     /// The measured profile, if one is kept.
     fn profile(&self) -> Option<&Profile>;
     /// Work since the start, if a ledger is kept.
-    fn work(&self) -> Option<Work>;
+    fn work(&self) -> Option<LedgerWork>;
     /// Adds a sphere; effects must not depend on how many there are.
     fn insert(&mut self, sphere: &Sphere);
-    /// Removes the spheres that are not to be kept.
+    /// Removes the spheres that are not marked in `keep`.
     fn retain(&mut self, keep: &[bool]);
     /// Opens the floor, if it has a closed opening.
     fn open_floor(&mut self);
@@ -100,10 +100,10 @@ pub(in crate::dem) struct Contacts {
 }
 
 /// What a scene specifies for a system besides its laws and spheres. It does not change.
-pub(in crate::dem) struct Setup {
+pub(in crate::dem) struct SystemSetup {
     /// In the order in which they act.
     pub(in crate::dem) walls: Vec<TankWall>,
-    /// The floor as it is once its opening opens, if that is closed at the start.
+    /// The floor with its opening open, if the opening is closed at the start.
     pub(in crate::dem) closed_floor: Option<TankWall>,
     /// Effects with a potential come first.
     pub(in crate::dem) effects: Vec<PlacedEffect>,
@@ -129,7 +129,7 @@ pub(in crate::dem) struct Setup {
     pub(in crate::dem) flows: bool,
 }
 
-impl Setup {
+impl SystemSetup {
     /// Near pairs for a system with this normal law, not found yet.
     fn near<N: NormalLaw>(&self) -> Near {
         let purpose = Purpose {
@@ -143,7 +143,7 @@ impl Setup {
 /// A simulation compiled for its contact laws.
 pub(in crate::dem) struct System<N, T: TangentialLaw> {
     particles: Particles,
-    setup: Setup,
+    setup: SystemSetup,
     normal: N,
     tangential: T,
     /// The tangential law at walls.
@@ -158,22 +158,22 @@ pub(in crate::dem) struct System<N, T: TangentialLaw> {
     driven: Vec<(usize, usize)>,
     /// How springs are loaded until the next evaluation.
     loading: Loading,
-    /// Velocities and spins that load springs, if these are not those of the evaluation.
+    /// Velocities and spins that load springs, if they differ from those at the evaluation.
     earlier: Vec<EarlierRows>,
     /// Velocities and spins before a prediction.
-    before: Before,
+    before: MotionBefore,
     /// Buffers of adaptive Verlet.
     workspace: Workspace<T::History>,
     /// Absent where nothing resists rolling.
     rolling: Option<Box<RollingState>>,
-    ledger: Option<Ledger>,
+    ledger: Option<EnergyBooks>,
     profile: Option<Box<Profile>>,
     /// The properties of all spheres, if they are alike.
     alike: Option<SphereProperties>,
     buffers: Box<Buffers<T::History>>,
     /// Blocks of spheres for the effects, one per thread.
     bodies: Vec<Bodies>,
-    /// Which thread computes which spheres, if there are several.
+    /// The division of spheres among threads, if there are several.
     division: Option<Division<T::History>>,
     level: Level,
 }
@@ -224,7 +224,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     pub(in crate::dem) fn new(
         normal: N,
         [tangential, tangential_at_walls]: [T; 2],
-        setup: Setup,
+        setup: SystemSetup,
         mut particles: Particles,
     ) -> Self {
         Self {
@@ -235,7 +235,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             walls: setup.walls.iter().copied().map(WallContacts::new).collect(),
             loading: Loading::present(setup.dt),
             earlier: Vec::new(),
-            before: Before::default(),
+            before: MotionBefore::default(),
             workspace: Workspace::default(),
             rolling: setup.rolling.map(|law| Box::new(RollingState::new(law))),
             ledger: None,
@@ -255,7 +255,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
 
     /// Ends a part of a step that is measured.
     #[inline(always)]
-    fn mark(&mut self, part: Part) {
+    fn mark(&mut self, part: StepPart) {
         profile::mark(&mut self.profile, part);
     }
 
@@ -263,7 +263,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     #[inline(always)]
     fn mark_ledger(&mut self) {
         if self.ledger.is_some() {
-            self.mark(Part::Ledger);
+            self.mark(StepPart::Ledger);
         }
     }
 }
@@ -305,7 +305,7 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
     }
 
     fn keep_ledger(&mut self) {
-        self.ledger = Some(Ledger::default());
+        self.ledger = Some(EnergyBooks::default());
     }
 
     fn keep_profile(&mut self, profile: Profile) {
@@ -316,7 +316,7 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
         self.profile.as_deref()
     }
 
-    fn work(&self) -> Option<Work> {
+    fn work(&self) -> Option<LedgerWork> {
         self.ledger.as_ref().map(|ledger| ledger.books.work)
     }
 
@@ -378,7 +378,7 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
         self.division = None;
         self.rolling = None;
         self.earlier = Vec::new();
-        self.before = Before::default();
+        self.before = MotionBefore::default();
         self.workspace = Workspace::default();
     }
 

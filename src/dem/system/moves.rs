@@ -1,9 +1,9 @@
 //! Effects, kicks and drifts: loops over all spheres, or over each thread's.
 
-use crate::dem::bodies::Spheres;
+use crate::dem::bodies::SphereRows;
 use crate::dem::guard::{Limits, TooFast};
 use crate::dem::neighbours::Allowance;
-use crate::dem::profile::{self, Part, Profile};
+use crate::dem::profile::{self, Profile, StepPart};
 use crate::dem::threads::in_parallel;
 use crate::forces::effects::PlacedEffect;
 use crate::particles::block::BLOCK;
@@ -45,7 +45,7 @@ pub(super) struct Moves<'a> {
     /// because numbers are rounded after each.
     pub(super) kicks: &'a [f64],
     pub(super) drift: Option<Drift>,
-    /// Whether forces and torques are set to zero, while they are in a near cache.
+    /// Whether forces and torques are set to zero while they are in a near cache.
     pub(super) clear: bool,
     pub(super) limits: &'a Limits,
     /// The time step (s).
@@ -74,7 +74,7 @@ impl Moves<'_> {
     /// only without other threads.
     pub(super) fn apply(
         &self,
-        mut spheres: Spheres<'_>,
+        mut spheres: SphereRows<'_>,
         bodies: &mut [Bodies],
         level: Level,
         profile: &mut Option<Box<Profile>>,
@@ -103,7 +103,7 @@ impl Moves<'_> {
 
     fn move_share(
         &self,
-        spheres: &mut Spheres<'_>,
+        spheres: &mut SphereRows<'_>,
         bodies: &mut Bodies,
         asked: Asked,
         level: Level,
@@ -113,7 +113,9 @@ impl Moves<'_> {
         debug_assert!(self.kicks.len() <= found.too_fast.len());
         // Gravity alone needs no blocks of columns.
         let alone = match self.effects {
-            [(place, effect)] => effect.acceleration().map(|it| (it, Part::Effect(*place))),
+            [(place, effect)] => effect
+                .acceleration()
+                .map(|it| (it, StepPart::Effect(*place))),
             _ => None,
         };
         while spheres.len() > 0 {
@@ -134,16 +136,16 @@ impl Moves<'_> {
                     let first = || limits.first_too_fast(some.first, velocity, radius, self.dt);
                     *too_fast = too_fast.or_else(first);
                 }
-                profile::mark(profile, Part::Kick);
+                profile::mark(profile, StepPart::Kick);
             }
             if let Some(drift) = self.drift {
                 found.far |= fearless_simd::dispatch!(level, simd => drift.apply(simd, &mut some));
-                profile::mark(profile, Part::Drift);
+                profile::mark(profile, StepPart::Drift);
             }
             if self.clear {
                 some.force.fill(Vector::ZERO);
                 some.torque.fill(Vector::ZERO);
-                profile::mark(profile, Part::Rest);
+                profile::mark(profile, StepPart::Rest);
             }
         }
         found
@@ -154,7 +156,7 @@ impl Moves<'_> {
     fn act<S: Simd>(
         &self,
         simd: S,
-        spheres: &mut Spheres<'_>,
+        spheres: &mut SphereRows<'_>,
         bodies: &mut Bodies,
         asked: Asked,
         level: Level,
@@ -162,14 +164,14 @@ impl Moves<'_> {
     ) {
         for from in (0..spheres.len()).step_by(BLOCK) {
             bodies.take(simd, spheres, from, asked);
-            profile::mark(profile, Part::Rest);
+            profile::mark(profile, StepPart::Rest);
             for (place, effect) in self.effects {
                 effect.apply(level, bodies);
-                profile::mark(profile, Part::Effect(*place));
+                profile::mark(profile, StepPart::Effect(*place));
             }
             bodies.give(simd, spheres, from, asked);
         }
-        profile::mark(profile, Part::Rest);
+        profile::mark(profile, StepPart::Rest);
     }
 }
 
@@ -189,7 +191,7 @@ impl Found {
 
 /// F += m a.
 #[inline(always)]
-fn accelerate<S: Simd>(simd: S, spheres: &mut Spheres<'_>, acceleration: Vector) {
+fn accelerate<S: Simd>(simd: S, spheres: &mut SphereRows<'_>, acceleration: Vector) {
     let acceleration = acceleration.simd(simd);
     for (force, &mass) in spheres.force.iter_mut().zip(spheres.mass) {
         let row = force.simd(simd) + acceleration * mass;
@@ -197,9 +199,9 @@ fn accelerate<S: Simd>(simd: S, spheres: &mut Spheres<'_>, acceleration: Vector)
     }
 }
 
-/// Smaller spins (rad/s) are zero. Friction and damping that act on spins alone let them fall
-/// without end, to numbers that processors multiply many times slower. What they do to a velocity
-/// is far below its last digit.
+/// Smaller spins (rad/s) are zero. Friction and damping that act on spins alone let them decay to
+/// denormal numbers, which processors multiply many times slower. Their effect on a velocity is far
+/// below its last digit.
 const LEAST_SPIN: f64 = 1e-280;
 
 /// A spin (rad/s) with components below [`LEAST_SPIN`] as zero.
@@ -210,7 +212,7 @@ pub(super) fn without_least(spin: Vector) -> Vector {
 
 /// v += a dt, and the same for spins. Returns whether no component of a velocity is beyond `slow`.
 #[inline(always)]
-fn kick_all<S: Simd>(simd: S, spheres: &mut Spheres<'_>, dt: f64, slow: f64) -> bool {
+fn kick_all<S: Simd>(simd: S, spheres: &mut SphereRows<'_>, dt: f64, slow: f64) -> bool {
     // The fourth number of a row is padding.
     let most = f64x4::simd_from(simd, [slow, slow, slow, f64::INFINITY]);
     let mut all_slow = mask64x4::splat(simd, true);
@@ -238,7 +240,7 @@ fn kick_all<S: Simd>(simd: S, spheres: &mut Spheres<'_>, dt: f64, slow: f64) -> 
 impl Drift {
     /// Moves the spheres. Returns whether one of them went too far.
     #[inline(always)]
-    fn apply<S: Simd>(&self, simd: S, spheres: &mut Spheres<'_>) -> bool {
+    fn apply<S: Simd>(&self, simd: S, spheres: &mut SphereRows<'_>) -> bool {
         for (position, velocity) in spheres.position.iter_mut().zip(&*spheres.velocity) {
             let row = position.simd(simd) + velocity.simd(simd) * self.dt;
             *position = Vector::of_row(row.into());

@@ -3,7 +3,7 @@
 use super::System;
 use crate::dem::neighbours::NearPair;
 use crate::dem::order;
-use crate::dem::profile::Part;
+use crate::dem::profile::StepPart;
 use crate::forces::contact::NormalLaw;
 use crate::forces::friction::{History, TangentialLaw};
 use crate::simulation::Instability;
@@ -23,7 +23,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             Some(order) => self.reorder(&order),
             None => Ok(()),
         };
-        self.mark(Part::List);
+        self.mark(StepPart::List);
         result
     }
 
@@ -50,7 +50,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     }
 
     /// Gives the near pairs with a history their new indices, and sorts them and their histories.
-    /// These are most of the memory of a large scene, so they are sorted in place.
+    /// These take most of the memory of a large scene, so they are sorted in place.
     fn renumber_pairs(&mut self, places: &[u32]) {
         let pairs = self.neighbours.near.pairs_mut();
         let histories = &mut self.pair_history;

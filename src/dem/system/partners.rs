@@ -2,15 +2,15 @@
 
 use super::contact_block::EarlierRows;
 use super::wall_contacts::NearSphere;
-use crate::dem::bodies::Spheres;
+use crate::dem::bodies::SphereRows;
 use crate::dem::neighbours::NearPair;
 use crate::particles::Particles;
 use crate::particles::block::BLOCK;
 use crate::particles::vector::Vector;
 use std::ops::Range;
 
-/// The spheres that contacts read: all spheres, those of a thread, or copies. Contacts are computed
-/// with indices that count from the first of these.
+/// The spheres that contacts read: all spheres, the spheres of a thread, or copies. Contacts are
+/// computed with indices that count from the first of these.
 #[derive(Clone, Copy)]
 pub(super) struct Partners<'a> {
     /// The index of the first one.
@@ -29,7 +29,7 @@ pub(super) struct Partners<'a> {
     pub(super) inverse_mass: &'a [f64],
     /// Moments of inertia (kg m2), of spheres that rotate.
     pub(super) inertia: &'a [f64],
-    /// Velocities and spins that load springs, if these are not the present ones.
+    /// Velocities and spins that load springs, if they differ from the present ones.
     pub(super) earlier: &'a [EarlierRows],
 }
 
@@ -62,7 +62,7 @@ impl<'a> Partners<'a> {
     /// These spheres, with the velocities and spins that load springs; and their forces and
     /// torques.
     pub(super) fn of(
-        spheres: &'a mut Spheres<'_>,
+        spheres: &'a mut SphereRows<'_>,
         earlier: &'a [EarlierRows],
     ) -> (Self, [&'a mut [Vector]; 2]) {
         let partners = Self {
@@ -79,8 +79,9 @@ impl<'a> Partners<'a> {
         (partners, [spheres.force, spheres.torque])
     }
 
-    /// The first of these spheres, with indices counted from the first of these partners, that
-    /// forces move, and its index among all. A contact of others moves nothing, however deep it is.
+    /// The index among all spheres of the first of `spheres` that forces move. Indices in `spheres`
+    /// are counted from the first of these partners. A contact of other spheres moves nothing,
+    /// however deep it is.
     #[inline(always)]
     pub(super) fn first_to_yield(&self, spheres: &[u32]) -> Option<usize> {
         let mut all = spheres.iter();
@@ -135,7 +136,7 @@ pub(super) struct Copies {
 
 impl Copies {
     /// Copies the spheres as they are now, out of all.
-    pub(super) fn renew(&mut self, all: &Spheres<'_>) {
+    pub(super) fn renew(&mut self, all: &SphereRows<'_>) {
         let columns = [
             (&mut self.position, &*all.position),
             (&mut self.velocity, &*all.velocity),
@@ -147,8 +148,8 @@ impl Copies {
         }
     }
 
-    /// These spheres. Their properties, which do not change, are read from those of all.
-    pub(super) fn partners<'a>(&'a self, all: &Spheres<'a>) -> Partners<'a> {
+    /// These spheres. Their constant properties are read from the original arrays.
+    pub(super) fn partners<'a>(&'a self, all: &SphereRows<'a>) -> Partners<'a> {
         Partners {
             first: self.spheres.start as u32,
             position: &self.position,
@@ -163,7 +164,7 @@ impl Copies {
     }
 }
 
-/// These entries of an array, or none if the array is empty.
+/// These entries of an array, or an empty slice if the array is empty.
 fn part<'a, E>(all: &'a [E], range: &Range<usize>) -> &'a [E] {
     all.get(range.clone()).unwrap_or_default()
 }

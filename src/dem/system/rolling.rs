@@ -1,5 +1,5 @@
-//! Rolling resistance: a pass of its own over the contacts that touch, after their forces, in the
-//! order of the lists and on one thread. Only scenes that name it have it.
+//! Rolling resistance: a separate pass over the touching contacts after their forces, in the order
+//! of the lists and on one thread. Only scenes that name it run this pass.
 //!
 //! Springs are kept by the numbers of their partners, which stay when spheres come, go or are
 //! sorted in memory.
@@ -10,10 +10,10 @@ use super::contact_block::EarlierRows;
 use super::contact_geometry::{ContactGeometry, inverse_or_zero};
 use super::contact_laws::Laws;
 use super::contact_state::ContactState;
-use super::ledger::{Books, Ledger};
+use super::ledger::{Books, EnergyBooks};
 use super::partners::Partners;
 use crate::dem::neighbours::NearPair;
-use crate::dem::profile::Part;
+use crate::dem::profile::StepPart;
 use crate::dem::walls::{TankWall, Wall};
 use crate::forces::contact::NormalLaw;
 use crate::forces::friction::TangentialLaw;
@@ -25,16 +25,17 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// A partner of a contact, whatever its place in memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-pub(super) enum Partner {
+pub(super) enum RollingPartner {
     /// A sphere that moves, by its number in the scene.
     Sphere(u32),
-    /// A fixed sphere. Those of the door come last, so that the others stay when it opens.
+    /// A fixed sphere. Spheres of the door come last, so that the others keep their numbers when it
+    /// opens.
     Fixed(u32),
     /// A wall, by its place among the walls.
     Wall(u32),
 }
 
-impl Partner {
+impl RollingPartner {
     fn of(particles: &Particles, i: u32) -> Self {
         let fixed = particles.fixed as u32;
         if i < fixed {
@@ -45,16 +46,16 @@ impl Partner {
     }
 }
 
-/// The moments (N m) of the springs of all contacts, on the first of both partners. The partners
-/// are in rising order.
-pub(super) type RollingSprings = BTreeMap<[Partner; 2], Vector>;
+/// The moments (N m) of the springs of all contacts, on the first partner. Partners are in
+/// ascending order.
+pub(super) type RollingSprings = BTreeMap<[RollingPartner; 2], Vector>;
 
 /// Rolling resistance and what its contacts remember.
 pub(super) struct RollingState {
     law: RollingLaw,
     pub(super) springs: RollingSprings,
     /// Springs of an evaluation, kept for its memory.
-    renewed: Vec<([Partner; 2], Vector)>,
+    renewed: Vec<([RollingPartner; 2], Vector)>,
 }
 
 impl RollingState {
@@ -69,15 +70,17 @@ impl RollingState {
     /// Forgets the springs of spheres that are not kept.
     pub(super) fn retain(&mut self, keep: &[bool], particles: &Particles) {
         let gone = (0..).zip(keep).filter(|(_, keep)| !**keep);
-        let gone: BTreeSet<Partner> = gone.map(|(i, _)| Partner::of(particles, i)).collect();
+        let gone: BTreeSet<RollingPartner> = gone
+            .map(|(i, _)| RollingPartner::of(particles, i))
+            .collect();
         self.springs
             .retain(|key, _| key.iter().all(|it| !gone.contains(it)));
     }
 }
 
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
-    /// Whether something at contacts is loaded by velocities of another moment, where the
-    /// integrator has such.
+    /// Whether springs at contacts are loaded by velocities of an earlier moment, if the integrator
+    /// has these.
     pub(super) fn loads_springs(&self) -> bool {
         Self::HAS_HISTORY || self.rolling.is_some()
     }
@@ -103,14 +106,14 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                 pass.add_at_wall(wall.wall, place, sphere.i);
             }
         }
-        // What no longer touches has no spring, near or not.
+        // Pairs that no longer touch have no spring, near or not.
         pass.springs.clear();
         pass.finish();
-        self.mark(Part::Rolling);
+        self.mark(StepPart::Rolling);
     }
 
-    /// The same for the contacts of an island. Springs of other contacts stay: contacts outside all
-    /// islands do not touch, and those of earlier steps ended there.
+    /// The same for the contacts of an island. Springs of other contacts stay. Contacts outside all
+    /// islands do not touch.
     pub(super) fn add_rolling_of_island(&mut self, contacts: &IslandContacts) {
         let laws = self.laws();
         let Some(rolling) = &mut self.rolling else {
@@ -132,7 +135,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             }
         }
         pass.finish();
-        self.mark(Part::Rolling);
+        self.mark(StepPart::Rolling);
     }
 
     /// Energy (J) of the rolling spring of two spheres, at an overlap and effective radius (m).
@@ -142,22 +145,27 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         overlap: f64,
         effective_radius: f64,
     ) -> f64 {
-        let partner = |i: usize| Partner::of(&self.particles, i as u32);
+        let partner = |i: usize| RollingPartner::of(&self.particles, i as u32);
         self.energy_of_spring([partner(i), partner(j)], overlap, effective_radius)
     }
 
-    /// The same of a sphere and a wall, by its place among the walls.
+    /// The same for a sphere and a wall, by its place among the walls.
     pub(super) fn rolling_energy_at_wall(
         &self,
         (i, wall): (usize, usize),
         overlap: f64,
         radius: f64,
     ) -> f64 {
-        let sphere = Partner::of(&self.particles, i as u32);
-        self.energy_of_spring([sphere, Partner::Wall(wall as u32)], overlap, radius)
+        let sphere = RollingPartner::of(&self.particles, i as u32);
+        self.energy_of_spring([sphere, RollingPartner::Wall(wall as u32)], overlap, radius)
     }
 
-    fn energy_of_spring(&self, mut key: [Partner; 2], overlap: f64, effective_radius: f64) -> f64 {
+    fn energy_of_spring(
+        &self,
+        mut key: [RollingPartner; 2],
+        overlap: f64,
+        effective_radius: f64,
+    ) -> f64 {
         let Some(rolling) = &self.rolling else {
             return 0.0;
         };
@@ -196,7 +204,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     }
 }
 
-/// 1 / (I + m r^2) (1/(kg m2)), zero of what does not move.
+/// 1 / (I + m r^2) (1/(kg m2)), zero for what does not move.
 fn inverse_rolling_inertia(inertia: f64, inverse_mass: f64, radius: f64) -> f64 {
     match inverse_mass > 0.0 {
         true => 1.0 / (inertia + radius * radius / inverse_mass),
@@ -208,9 +216,9 @@ fn inverse_rolling_inertia(inertia: f64, inverse_mass: f64, radius: f64) -> f64 
 struct Pass<'a, N, T> {
     laws: Laws<N, T>,
     law: RollingLaw,
-    /// Springs of the evaluation before. Those of contacts that are computed again are taken out.
+    /// Springs of the previous evaluation. Each is taken out when its contact is computed again.
     springs: &'a mut RollingSprings,
-    renewed: &'a mut Vec<([Partner; 2], Vector)>,
+    renewed: &'a mut Vec<([RollingPartner; 2], Vector)>,
     particles: &'a mut Particles,
     earlier: &'a [EarlierRows],
     books: Option<&'a mut Books>,
@@ -219,12 +227,12 @@ struct Pass<'a, N, T> {
 /// A contact whose geometry is known.
 struct Meeting {
     /// Both partners, in the order of the springs' keys.
-    key: [Partner; 2],
+    key: [RollingPartner; 2],
     /// The spheres among them.
     spheres: (u32, Option<u32>),
     effective_radius: f64,
     now: ContactGeometry,
-    /// When it had the velocities that load springs, if that was earlier.
+    /// The earlier moment whose velocities load springs, if any.
     earlier: Option<ContactGeometry>,
 }
 
@@ -234,7 +242,7 @@ impl<'a, N: NormalLaw, T: TangentialLaw> Pass<'a, N, T> {
         rolling: &'a mut RollingState,
         particles: &'a mut Particles,
         earlier: &'a [EarlierRows],
-        ledger: &'a mut Option<Ledger>,
+        ledger: &'a mut Option<EnergyBooks>,
     ) -> Self {
         Self {
             earlier: match laws.loading.age > 0.0 {
@@ -257,7 +265,7 @@ impl<'a, N: NormalLaw, T: TangentialLaw> Pass<'a, N, T> {
 
     fn add_pair(&mut self, pair: NearPair) {
         let (mut i, mut j) = (pair.i(), pair.j());
-        let mut key = [i, j].map(|it| Partner::of(self.particles, it));
+        let mut key = [i, j].map(|it| RollingPartner::of(self.particles, it));
         // The moments of both partners are opposite to the last bit, so either may be kept.
         if key[1] < key[0] {
             key.swap(0, 1);
@@ -293,7 +301,10 @@ impl<'a, N: NormalLaw, T: TangentialLaw> Pass<'a, N, T> {
             self.laws.geometry_at_wall(&state, contact, None)
         };
         let meeting = Meeting {
-            key: [Partner::of(self.particles, i), Partner::Wall(place)],
+            key: [
+                RollingPartner::of(self.particles, i),
+                RollingPartner::Wall(place),
+            ],
             spheres: (i, None),
             effective_radius: radius,
             now: geometry(state.offset),
@@ -318,12 +329,12 @@ impl<'a, N: NormalLaw, T: TangentialLaw> Pass<'a, N, T> {
         }
     }
 
-    /// The contact as rolling resistance sees it.
+    /// The contact in the form that rolling laws take.
     ///
     /// Its rate is the difference of the spins, without the part along the normal. A common
-    /// rotation of both partners drops out of it, whatever their radii; R_eff times it is the speed
-    /// at which the contact moves along both surfaces if they do not slide; and with opposite
-    /// torques, which keep the angular momentum, the power is that of the torque times this rate.
+    /// rotation of both partners cancels, whatever their radii. R_eff times this rate is the speed
+    /// at which the contact moves along both surfaces if they do not slide. With opposite torques,
+    /// which conserve angular momentum, the power is the torque times this rate.
     fn touch(&self, state: &ContactState, meeting: &Meeting) -> RollingTouch {
         let Meeting {
             effective_radius,
@@ -368,7 +379,7 @@ impl<'a, N: NormalLaw, T: TangentialLaw> Pass<'a, N, T> {
         }
     }
 
-    /// Adds a torque (N m) to that of a sphere, and to the books.
+    /// Adds a torque (N m) to a sphere and to the books.
     fn turn(&mut self, i: u32, torque: Vector) {
         self.particles.torque[i as usize] += torque;
         if let Some(books) = &mut self.books {

@@ -7,7 +7,7 @@ use super::contact_state::SphereProperties;
 use super::ledger::Books;
 use super::rolling::RollingSprings;
 use super::wall_contacts::WallContacts;
-use super::{Age, NearPair, Setup, System, VerletList};
+use super::{Age, NearPair, System, SystemSetup, VerletList};
 use crate::dem::order;
 use crate::dem::state::StateError;
 use crate::forces::contact::NormalLaw;
@@ -49,7 +49,7 @@ impl EngineState<'_> {
 /// Histories of contacts.
 #[derive(Serialize, Deserialize)]
 struct Histories<P, H> {
-    /// Whether the law has a history. Lists that are empty do not tell.
+    /// Whether the law has a history. Empty lists do not show it.
     has_history: bool,
     /// [`RememberedPairs`] when written, a list of pairs when read.
     pairs: P,
@@ -130,20 +130,20 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         match (&mut self.rolling, rolling) {
             (Some(present), Some(springs)) => present.springs = springs.into_owned(),
             (None, None) => {}
-            _ => return Err(StateError("its rolling resistance is another")),
+            _ => return Err(StateError("its rolling resistance differs")),
         }
         match (&mut self.ledger, books) {
             (Some(ledger), Some(books)) if books.fit(&particles) => {
                 ledger.books = books.into_owned();
             }
             (None, None) => {}
-            _ => return Err(StateError("its energy balance is another")),
+            _ => return Err(StateError("its energy balance differs")),
         }
 
         self.step.number = step;
         self.step.moves = moves;
         (self.step.forces_are_zero, self.step.first_half_done) = (false, false);
-        let Setup {
+        let SystemSetup {
             limits,
             dt,
             effects,
@@ -175,10 +175,10 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         particles: &Particles,
         histories: &SavedHistories<T::History>,
     ) -> Result<(), StateError> {
-        let Setup { limits, dt, .. } = &self.setup;
+        let SystemSetup { limits, dt, .. } = &self.setup;
         let count = particles.len();
         let present = &self.particles;
-        let Setup { sorted, flows, .. } = self.setup;
+        let SystemSetup { sorted, flows, .. } = self.setup;
         let ordered = match (sorted, flows) {
             (_, true) => order::are_distinct(&particles.number, particles.fixed),
             (true, false) => {

@@ -1,13 +1,14 @@
-//! Forces and moves of a large scene in one pass over its spheres, or over those of each thread.
+//! Forces and moves of a large scene in one pass over its spheres, or over the spheres of each
+//! thread.
 //!
 //! Pairs are sorted by their first spheres. Once the pairs of a sphere are done, no later pair
 //! reads its position, and the sphere can be moved while it is in the cache. The operations on a
 //! sphere and their order are the same as if all forces came first.
 //!
 //! A thread never reads the spheres of another thread, which may have moved already. Pairs across a
-//! boundary read copies of the spheres around it. So do all pairs of a thread from the first sphere
-//! on that has a partner in a later thread, because a block of pairs reads its partners from one
-//! array.
+//! boundary read copies of the spheres around it. So do all later pairs of a thread, starting at
+//! the first sphere with a partner in a later thread, because a block of pairs reads its partners
+//! from one array.
 
 use super::System;
 use super::candidates::Candidates;
@@ -17,7 +18,7 @@ use super::moves::{FirstTooFast, Found, Moves};
 use super::partners::Partners;
 use super::sums::Sums;
 use super::touching::CHUNK;
-use crate::dem::bodies::Spheres;
+use crate::dem::bodies::SphereRows;
 use crate::dem::neighbours::NearPair;
 use crate::dem::profile::Profile;
 use crate::dem::threads::in_parallel;
@@ -34,7 +35,7 @@ const SPAN: usize = 16 * CHUNK;
 
 /// The work of one thread: forces and moves of its spheres.
 pub(super) struct Stream<'a, H> {
-    spheres: Spheres<'a>,
+    spheres: SphereRows<'a>,
     /// How many of them have been moved.
     moved: usize,
     /// Contacts that are still to be computed.
@@ -85,7 +86,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         self.bodies
             .resize_with(threads(self.division.as_ref()), Bodies::new);
         let bodies = &mut self.bodies[..];
-        let spheres = Spheres::new(&mut self.particles, near.anchor().position());
+        let spheres = SphereRows::new(&mut self.particles, near.anchor().position());
         let candidates = Candidates::all(near.pairs(), &mut self.pair_history, &mut self.walls);
         let mut streams = match &mut self.division {
             Some(division) => division.streams(spheres, candidates, bodies),
@@ -94,7 +95,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                 vec![Stream::new(spheres, all, &mut bodies[0], (None, None))]
             }
         };
-        // A profile measures the first thread. Its `Part::Rest` includes the wait for the others.
+        // A profile measures the first thread. Its `StepPart::Rest` includes the wait for the others.
         streams[0].profile = self.profile.take();
         let level = self.level;
         in_parallel(&mut streams, &|stream| {
@@ -113,7 +114,7 @@ impl<'a, H: History> Stream<'a, H> {
     /// The work on these spheres and contacts, with copies of the spheres around the boundaries
     /// before and after them.
     pub(super) fn new(
-        spheres: Spheres<'a>,
+        spheres: SphereRows<'a>,
         contacts: ThreadContacts<'a, H>,
         bodies: &'a mut Bodies,
         (before, after): (Option<Partners<'a>>, Option<Partners<'a>>),

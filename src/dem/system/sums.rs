@@ -1,4 +1,4 @@
-//! Forces and torques, as contacts add to them.
+//! Forces and torques, to which contacts add.
 
 use crate::dem::threads::split;
 use crate::forces::friction::TangentialLaw;
@@ -19,7 +19,7 @@ pub(super) struct Sums<'a> {
 }
 
 impl<'a> Sums<'a> {
-    /// Takes those of this number of spheres from the front.
+    /// Takes the sums of `count` spheres from the front.
     pub(super) fn split(&mut self, count: usize) -> Sums<'a> {
         let first = self.first;
         self.first += count;

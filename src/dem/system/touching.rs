@@ -30,9 +30,9 @@ pub(super) struct Touching {
     rest: [NearPair; ROWS],
     /// Where their histories are.
     entries: [u32; ROOM],
-    /// Where the histories of pairs are that do not touch.
+    /// Entries of the histories of pairs that do not touch.
     apart: [u32; ROOM],
-    /// Centre of the first sphere from that of the second (m).
+    /// Offset of the first centre from the second (m).
     offset: [[f64; ROOM]; 3],
     /// Whether histories are prefetched.
     pub(super) prefetched: bool,
@@ -40,10 +40,10 @@ pub(super) struct Touching {
 
 /// A block of contacts; lanes without one repeat the last.
 #[derive(Clone, Copy)]
-pub(super) struct Lanes<'a> {
+pub(super) struct ContactLanes<'a> {
     pub(super) pairs: &'a [NearPair; BLOCK],
     pub(super) entries: Entries<'a>,
-    /// Centres of the first spheres from those of the second (m), if they are known.
+    /// Offsets of the first centres from the second (m), if they are known.
     pub(super) offset: Option<[&'a [f64; BLOCK]; 3]>,
     /// How many lanes hold a contact.
     pub(super) count: usize,
@@ -72,11 +72,11 @@ impl Touching {
 
     /// The block from `at` on, of `found` contacts in all.
     #[inline(always)]
-    pub(super) fn block(&self, at: usize, found: usize) -> Lanes<'_> {
+    pub(super) fn block(&self, at: usize, found: usize) -> ContactLanes<'_> {
         const FITS: &str = "a block lies within the room";
         let all = at..at + BLOCK;
         let [x, y, z] = &self.offset;
-        Lanes {
+        ContactLanes {
             pairs: self.pairs[all.clone()].try_into().expect(FITS),
             entries: Entries::Listed(self.entries[all.clone()].try_into().expect(FITS)),
             offset: Some([
@@ -91,19 +91,23 @@ impl Touching {
     /// The first [`BLOCK`] of these contacts, or all if there are fewer. Whether they touch is left
     /// to the laws. The history of the first is at `from`.
     #[inline(always)]
-    pub(super) fn first_of<'a>(&'a mut self, near: &'a [NearPair], from: usize) -> Lanes<'a> {
+    pub(super) fn first_of<'a>(
+        &'a mut self,
+        near: &'a [NearPair],
+        from: usize,
+    ) -> ContactLanes<'a> {
         let Some(pairs) = near.first_chunk() else {
             self.pairs[..near.len()].copy_from_slice(near);
             for (entry, at) in self.entries.iter_mut().zip(from..from + near.len()) {
                 *entry = at as u32;
             }
             self.fill_up(near.len());
-            return Lanes {
+            return ContactLanes {
                 offset: None,
                 ..self.block(0, near.len())
             };
         };
-        Lanes {
+        ContactLanes {
             pairs,
             entries: Entries::From(from),
             offset: None,
@@ -111,7 +115,7 @@ impl Touching {
         }
     }
 
-    /// Finds the pairs that touch among at most [`CHUNK`] pairs, and returns how many they are. The
+    /// Finds the pairs that touch among at most [`CHUNK`] pairs, and returns their number. The
     /// history of the first pair is at `from`. Pairs that do not touch lose their histories.
     /// `alike` holds the properties of all spheres, if they are alike.
     #[inline(always)]
@@ -262,7 +266,7 @@ mod tests {
     }
 
     proptest! {
-        /// The result is that of a test pair by pair: the same pairs in the same order, with their
+        /// The result equals a test pair by pair: the same pairs in the same order, with their
         /// histories. The other histories are cleared.
         #[test]
         fn pairs_that_touch_are_found(

@@ -18,7 +18,7 @@ pub(crate) enum Open {
 }
 
 impl Open {
-    /// Which spheres grow faster, and why.
+    /// Which spheres become faster without limit, and why.
     pub(crate) fn describe(self) -> &'static str {
         match self {
             Self::Down => "spheres fall with nothing below them, and no drag bounds their speed",
@@ -57,7 +57,7 @@ impl Fall {
         let speed = |height: f64| (2.0 * acceleration * height).sqrt();
         let way = Way::of(scene, &gravity);
         let highest = way.highest(scene);
-        // A sphere that is not below every start holds none that start beside or below it.
+        // A sphere that is not below every start cannot stop those that start beside or below it.
         let lowest_start = way.lowest(scene);
         let sphere = way.lowest_sphere(scene).filter(|it| *it < lowest_start);
         let end = match (sphere, way.end(way.floor)) {
@@ -87,8 +87,8 @@ impl Fall {
     }
 }
 
-/// Components of the direction of gravity below this count as 0: a tilt of a right angle is given
-/// to some digits.
+/// Components of the direction of gravity below this count as 0: a tilt by a right angle is given
+/// to a few digits only.
 const ROUNDED_TILT: f64 = 1e-5;
 
 /// The way along which spheres fall. Heights on it are above the middle of the tank at z = 0.

@@ -22,7 +22,7 @@ impl Fastest {
         if fall.open.is_some()
             && let Some(terminal) = terminal_speed(scene)
         {
-            // Through the air, which has a speed of its own.
+            // Relative to the air, which moves itself.
             let speed = terminal + of_effects;
             fall = Fall {
                 impact: speed,
@@ -30,7 +30,7 @@ impl Fastest {
                 open: None,
             };
         }
-        // A sphere that is fed in starts to fall with its own speed.
+        // A sphere from the feed starts to fall with its own speed.
         let fallen = |speed: f64| match scene.start {
             Start::Feed { .. } => libm::hypot(speed, start),
             _ => speed,
@@ -93,7 +93,7 @@ fn reach(scene: &Scene) -> (f64, Option<Open>) {
     });
     let effects = &scene.dem.effects;
     let turns = effects.swirl.as_ref().is_some_and(|it| it.omega != 0.0);
-    // What is no heavier than its fluid is pressed to the axis.
+    // Spheres no heavier than their fluid are pressed to the axis.
     let buoyancy = effects.buoyancy.as_ref();
     let is_heavy = buoyancy.is_none_or(|it| it.density < scene.spheres.density);
     let is_held = (wall.is_some() || fixed.is_some()) && scene.dem.contact.is_some();
@@ -108,7 +108,7 @@ fn farthest_wall(tank: &Tank) -> Option<f64> {
         .or(x.zip(y).map(|(x, y)| (x * x + y * y).sqrt()))
 }
 
-/// The speed (m/s) through the air at which drag holds the largest sphere, if it does.
+/// The terminal speed (m/s) of the largest sphere through the air, if there is drag.
 fn terminal_speed(scene: &Scene) -> Option<f64> {
     let (_, radius) = scene.radius_range();
     let alone = scene.spheres.count == 1;

@@ -1,20 +1,21 @@
 //! Limits of the time step, by a scene's stiffest contact, its drag and its friction.
 //!
 //! Symplectic Euler and velocity Verlet evaluate forces once per step, at velocities half a step
-//! behind the positions. A linear oscillator x'' = -w^2 x - g x' then stays bounded while
-//! (w dt)^2 + 2 g dt < 4: below 2/w without damping and below 2/g without a spring. Synchronised
+//! behind the positions. A linear oscillator x'' = -w^2 x - g x' then stays bounded while (w
+//! dt)^2 + 2 g dt < 4: below 2/w without damping and below 2/g without a spring. Synchronised
 //! Verlet predicts the velocities from the latest forces; its bound is (w dt)^2 + 4 g dt < 4.
-//! Adaptive Verlet cuts its steps itself where spheres touch. What is left is that no sphere moves
-//! by more than the displacement guard allows, and the drag, with g dt < 2 as for the first two.
+//! Adaptive Verlet chooses sub-steps itself where spheres touch. Only two limits remain: no sphere
+//! may move by more than the displacement guard allows, and drag needs g dt < 2, as for the first
+//! two.
 //!
-//! Every limit here is that criterion for one effect, at the fastest impact that the scene lets
-//! expect or at the deepest overlap at the start. The smallest spheres decide, because all of these
-//! times grow with the radius.
+//! Every limit here is this criterion for one effect, at the fastest impact expected in the scene
+//! or at the deepest overlap at the start. The smallest spheres decide, because all of these times
+//! grow with the radius.
 //!
 //! Bounded is not accurate. An elastic impact at the limit takes two steps and ends with 0.6 to 2.4
 //! times its speed. At half the limit the error is below 4 %, at a tenth below 0.03 %. The decisive
-//! limits do not consider several contacts of one sphere, for which the limit of twelve contacts is
-//! advised (tests/engine/stability measures both).
+//! limits ignore that one sphere may have several contacts; the limit of twelve contacts, which is
+//! advised, includes this (tests/engine/stability measures both).
 
 mod fall;
 mod fastest;
@@ -22,7 +23,7 @@ mod standing;
 
 pub use crate::forces::contact::{Impact, LinearImpact, rayleigh_time};
 pub use crate::forces::limit::Limit;
-pub use standing::Standing;
+pub use standing::StepMargin;
 
 use super::overlap::deepest_at_start;
 use crate::forces::limit::{DISPLACEMENT, Regime, Scheme};
@@ -31,24 +32,24 @@ use fall::Open;
 use fastest::Fastest;
 use std::cell::LazyCell;
 
-/// The fastest relative speed (m/s) that the scene lets expect at an impact: the largest of the
-/// speeds at the start, of the fall, of driven spheres, of the air's updraught and of the air's
-/// rotation at the wall. Zero if nothing moves.
+/// The fastest relative speed (m/s) expected at an impact: the largest of the speeds at the start,
+/// of the fall, of driven spheres, of the air's updraught and of the air's rotation at the wall.
+/// Zero if nothing moves.
 ///
 /// The fall is free, along gravity, from the highest start to the farthest wall or to the lowest
-/// fixed or driven sphere. Where nothing stands there, it is the terminal speed of the drag, with
-/// the speed of the air. Where nothing bounds it, it is what is known of it, and
-/// [`unbounded_speed`] says so.
+/// fixed or driven sphere. If nothing stands there, it is the terminal speed under drag plus the
+/// speed of the air. If nothing bounds it, it includes only the known speeds, and
+/// [`unbounded_speed`] gives the reason.
 pub fn fastest_impact(scene: &Scene) -> f64 {
     Fastest::of(scene).impact
 }
 
-/// Why nothing bounds the speeds of a scene, if nothing does. Its limits then do not hold for long.
+/// Why the speeds of a scene are unbounded, if they are. Its limits then do not hold for long.
 pub fn unbounded_speed(scene: &Scene) -> Option<&'static str> {
     Fastest::of(scene).open.map(Open::describe)
 }
 
-/// Duration (s) of the shortest contact the scene lets expect, if there is any.
+/// Duration (s) of the shortest contact expected in the scene, if there is any.
 pub fn shortest_contact(scene: &Scene) -> Option<f64> {
     let collisions = scene.dem.contact.as_ref()?.collisions(&regime(scene));
     collisions.first().map(|collision| collision.contact_time)
@@ -96,7 +97,7 @@ fn start_spin(scene: &Scene) -> f64 {
     }
 }
 
-/// The lowest height (m) of a centre: of what holds spheres, or at the start.
+/// The lowest height (m) of a centre: at the floor or fixed spheres, or at the start.
 fn lowest_height(scene: &Scene) -> f64 {
     match (&scene.start, scene.lowest_support()) {
         (_, Some(floor)) => floor,
@@ -138,7 +139,7 @@ pub fn limits(scene: &Scene) -> Vec<Limit> {
         let rolling = scene.dem.rolling.as_ref();
         limits.extend(rolling.map(|it| it.limit(contact, &regime)));
     }
-    // Spheres on which nothing acts fly straight on, with any step.
+    // Spheres without forces fly straight, with any step.
     if scene.dem.contact.is_none() && scene.dem.effects.tables().next().is_some() {
         limits.push(regime.displacement(0.0));
     } else if scene.time.integrator == Integrator::AdaptiveVerlet {
@@ -158,12 +159,12 @@ pub fn limits(scene: &Scene) -> Vec<Limit> {
     limits
 }
 
-/// Largest angle (rad) by which an oscillation of a driven sphere should go on in a step. A ball
-/// that a plate throws up at four times gravity bounces, in the mean, 5 % lower with steps of this
-/// angle, 20 % lower with twice the angle, and rests from half a period on (restitution 0.8).
+/// Largest phase angle (rad) of a driven sphere's oscillation in one step. A ball thrown up by a
+/// plate at four times gravity bounces 5 % lower on average with steps of this angle and 20 % lower
+/// with twice the angle; with steps of half a period it stays at rest (restitution 0.8).
 const LARGEST_SWING: f64 = 0.5;
 
-/// The limit of the fastest oscillation of a driven sphere; endless if there is none.
+/// The limit from the fastest oscillation of a driven sphere; infinite if there is none.
 fn period_of_driven(driven: &[Driven]) -> Limit {
     let swinging = driven.iter().filter(|path| path.amplitude != [0.0; 3]);
     let frequencies = swinging.map(|path| path.angular_frequency.abs());
@@ -174,13 +175,13 @@ fn period_of_driven(driven: &[Driven]) -> Limit {
         explanation: "0.5 / w, with the largest angular frequency w in [[driven]]: 12.6 steps in a \
                       period",
         consequence: Some(
-            "driven spheres go straight between the steps, so that what bounces on them bounces \
-             lower, and with a step of a period or half of one they stand still",
+            "driven spheres move in straight lines between steps, so that spheres bounce lower on \
+                them; with a step of one period or half a period they stand still",
         ),
     }
 }
 
-/// The limit above which a scene is refused; absent if nothing in it can become unstable.
+/// The limit above which a scene is refused; `None` if nothing in it can become unstable.
 pub fn largest_stable(scene: &Scene) -> Option<Limit> {
     limits(scene).into_iter().find(|limit| limit.decisive)
 }

@@ -5,14 +5,14 @@ use crate::scene::Scene;
 
 /// A time step compared with one limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Standing {
+pub struct StepMargin {
     /// The limit.
     pub limit: Limit,
     /// Time step over limit.
     pub ratio: f64,
 }
 
-impl Standing {
+impl StepMargin {
     /// Above this part of a decisive limit there is a warning. A spring then has w dt > 1 and
     /// oscillates 5 % too fast, 2 asin(w dt / 2) > pi/3 instead of 1. A relaxation at the rate g
     /// has g dt > 1 and overshoots.
@@ -32,9 +32,9 @@ impl Standing {
         Self::all(scene).into_iter().find(|it| it.limit.decisive)
     }
 
-    /// The text of a warning, if the step deserves one: above [`CAUTION`](Self::CAUTION) times a
-    /// decisive limit, and above an advised one. There is no warning for the Rayleigh time. A step
-    /// is usually a fifth of it, but no force of this engine travels as a surface wave.
+    /// The text of a warning, if the step is above [`CAUTION`](Self::CAUTION) times a decisive
+    /// limit or above an advised limit. There is no warning for the Rayleigh time: a step is
+    /// usually a fifth of it, but no force in this engine travels as a surface wave.
     pub fn consequence(&self) -> Option<&'static str> {
         let threshold = if self.limit.decisive {
             Self::CAUTION
@@ -53,7 +53,7 @@ mod tests {
     use std::path::Path;
 
     fn warns(limit: Limit, ratio: f64) -> bool {
-        Standing { limit, ratio }.consequence().is_some()
+        StepMargin { limit, ratio }.consequence().is_some()
     }
 
     #[test]
@@ -129,8 +129,12 @@ mod tests {
         for (contact, friction) in LAWS {
             let [short, long] = [1e-6, 1e-5].map(|dt| scene(contact, friction, dt));
             assert_eq!(limits(&short), limits(&long));
-            let ratios =
-                |scene: &Scene| Standing::all(scene).iter().map(|it| it.ratio).sum::<f64>();
+            let ratios = |scene: &Scene| {
+                StepMargin::all(scene)
+                    .iter()
+                    .map(|it| it.ratio)
+                    .sum::<f64>()
+            };
             assert!((ratios(&long) / ratios(&short) - 10.0).abs() < 1e-9);
         }
     }

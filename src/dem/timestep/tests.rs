@@ -58,7 +58,7 @@ fn elastic_impacts_of_known_materials() {
     }
 }
 
-/// Two spheres that meet at 1 m/s, and what else `tables` says.
+/// Two spheres that meet at 1 m/s, with further `tables`.
 fn pair(tables: &str) -> Scene {
     let text = format!(
         "{tables}

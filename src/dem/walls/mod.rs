@@ -8,7 +8,7 @@ pub use cylinder::Cylinder;
 pub use opening::{Orifice, Slit};
 pub use plane::Plane;
 
-use super::profile::Part;
+use super::profile::StepPart;
 use crate::particles::vector::Vector;
 use crate::scene::Tank;
 
@@ -25,8 +25,8 @@ pub struct WallContact {
 
 /// A wall at rest.
 pub trait Wall: Copy + Send + 'static {
-    /// The contact of a sphere at this position. It has no branches, for loops over blocks of
-    /// spheres.
+    /// The contact of a sphere at this position. It has no branches, because loops over blocks of
+    /// spheres call it.
     fn contact(&self, centre: Vector, radius: f64) -> WallContact;
 
     /// Whether a sphere at this position touches the wall, or may after a displacement of `margin`
@@ -51,7 +51,7 @@ pub enum TankWall {
 }
 
 impl TankWall {
-    /// Most walls that a tank has: a floor and four sides.
+    /// The largest number of walls of a tank: a floor and four sides.
     pub const MOST: usize = 5;
 
     /// The walls of a tank, in the order in which they act: the floor first. An opening in it is
@@ -83,7 +83,7 @@ impl TankWall {
         (tank.orifice_radius.map(orifice)).or(tank.slit_width.map(slit))
     }
 
-    /// What a message calls it.
+    /// Its name in messages.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Floor(_) => "floor",
@@ -93,11 +93,11 @@ impl TankWall {
     }
 
     /// The part of a step to which its forces belong.
-    pub fn part(&self) -> Part {
+    pub fn part(&self) -> StepPart {
         match self {
-            Self::Floor(_) | Self::Orifice(_) | Self::Slit(_) => Part::Floor,
-            Self::Cylinder(_) => Part::Cylinder,
-            Self::Side(_) => Part::Sides,
+            Self::Floor(_) | Self::Orifice(_) | Self::Slit(_) => StepPart::Floor,
+            Self::Cylinder(_) => StepPart::Cylinder,
+            Self::Side(_) => StepPart::Sides,
         }
     }
 }

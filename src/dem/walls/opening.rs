@@ -1,11 +1,11 @@
 //! A floor with an opening: a plate without thickness, with an edge all around the opening.
 //!
-//! A sphere touches the point of the plate that is nearest to its centre. Over the plate that is
-//! the point below it, in the opening a point of the edge. So the normal turns steadily as a sphere
-//! rolls over the edge, and the force has no jump. A plane joined with a cylinder has one: a sphere
-//! that comes into reach of the second wall may overlap it deeply at once.
+//! A sphere touches the point of the plate that is nearest to its centre. Over the plate this is
+//! the point below it, in the opening a point of the edge. So the normal turns continuously as a
+//! sphere rolls over the edge, and the force has no jump. A plane joined with a cylinder has a
+//! jump: a sphere that comes into reach of the second wall may overlap it deeply at once.
 //!
-//! The contact laws take the edge as flat, as they take all walls.
+//! The contact laws treat the edge as flat, like all walls.
 
 use super::{Wall, WallContact};
 use crate::particles::math::inverse_square_root;

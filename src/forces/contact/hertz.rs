@@ -46,8 +46,8 @@ pub struct Hertz {
 }
 
 impl Hertz {
-    /// Dissipation time A (s): as given, or that with which two spheres of that radius (m) and mass
-    /// (kg) have the given restitution.
+    /// Dissipation time A (s): as given, or such that two spheres of this radius (m) and mass (kg)
+    /// have the given restitution.
     pub fn dissipation_time(&self, radius: f64, mass: f64) -> f64 {
         match (self.dissipation_time, self.restitution) {
             (Some(time), _) => time,
@@ -141,9 +141,9 @@ impl ContactKeys for Hertz {
     }
 }
 
-/// Rayleigh time (s): a surface wave's way around half a sphere of that radius (m),
-/// pi r sqrt(rho / G) / (0.1631 nu + 0.8766) with the shear modulus G = Y / (2 (1 + nu))
-/// (Thornton and Randall, 1988; Ning and Ghadiri, 2006).
+/// Rayleigh time (s): the time of a surface wave around half a sphere of this radius (m), pi r
+/// sqrt(rho / G) / (0.1631 nu + 0.8766) with the shear modulus G = Y / (2 (1 + nu)) (Thornton and
+/// Randall, 1988; Ning and Ghadiri, 2006).
 pub fn rayleigh_time(radius: f64, density: f64, young_modulus: f64, poisson_ratio: f64) -> f64 {
     let shear_modulus = young_modulus / (2.0 * (1.0 + poisson_ratio));
     PI * radius * (density / shear_modulus).sqrt() / (0.1631 * poisson_ratio + 0.8766)

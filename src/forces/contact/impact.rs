@@ -39,8 +39,8 @@ impl Impact {
         time_scale(self.effective_mass, self.stiffness, self.speed)
     }
 
-    /// The impact whose deepest overlap is `overlap` (m). Its rebound is that of a pair released at
-    /// rest from this overlap.
+    /// The impact whose deepest overlap is `overlap` (m). It rebounds like a pair released at rest
+    /// from this overlap.
     pub fn from_overlap(self, overlap: f64) -> Self {
         let speed_squared = 0.8 * self.stiffness * overlap * overlap * overlap.sqrt();
         Self {

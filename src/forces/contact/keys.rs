@@ -45,8 +45,8 @@ pub(crate) trait ContactKeys {
     /// What the limit `damped contact` means.
     const DAMPED_LIMIT: &'static str;
 
-    /// The law, in a scene whose spheres have that mean radius (m). `mean_mass`: mass (kg) of a
-    /// sphere with that radius.
+    /// The law, in a scene whose spheres have this mean radius (m). `mean_mass`: mass (kg) of a
+    /// sphere of this radius.
     fn law(&self, mean_radius: f64, mean_mass: f64) -> Self::Law;
 
     /// The impacts that may limit the time step, the stiffest first; empty if nothing moves.
@@ -97,7 +97,7 @@ pub(crate) struct Collision {
 }
 
 impl Collision {
-    /// The collision of an impact of partners of that effective radius (m), with that damping rate
+    /// The collision of an impact of partners with this effective radius (m) and damping rate
     /// (1/s).
     pub(super) fn of_impact(impact: &Impact, effective_radius: f64, rate: f64) -> Self {
         Self {
@@ -121,8 +121,8 @@ impl Contact {
         with_keys!(self, keys => name(keys))
     }
 
-    /// [`NormalLaw::elastic_energy`] for many contacts: the law is built once, which takes an
-    /// integration where the keys give a restitution.
+    /// [`NormalLaw::elastic_energy`] for many contacts: the law is built only once, because it
+    /// takes an integration if the keys give a restitution.
     pub(crate) fn elastic_energy(&self) -> Box<dyn Fn(f64, f64) -> f64> {
         // The mean sphere is for the dissipation, on which the elastic energy does not depend.
         with_keys!(self, keys => {
@@ -136,8 +136,8 @@ impl Contact {
         with_keys!(self, keys => keys.collisions(regime))
     }
 
-    /// The stiffness (N/m) of a contact where it is deepest, at the start or in the fastest impact
-    /// of an effective radius (m) and an effective mass (kg).
+    /// The stiffness (N/m) of a contact at its deepest, at the start or in the fastest impact with
+    /// this effective radius (m) and effective mass (kg).
     pub(crate) fn stiffest(
         &self,
         regime: &Regime<'_>,
@@ -194,7 +194,7 @@ fn limits<K: ContactKeys>(keys: &K, collisions: &[Collision], regime: &Regime<'_
             explanation: "(w dt)^2 + 2 g dt < 4 of a sphere with twelve such contacts, all taken \
                           to act along one line: w^2 and the damping rate g are 6 times those of \
                           a pair",
-            consequence: Some("a sphere that many others squeeze may gain energy"),
+            consequence: Some("a sphere squeezed by many others may gain energy"),
         },
         regime.displacement(stiffest.speed),
     ];

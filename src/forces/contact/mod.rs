@@ -37,11 +37,11 @@ pub trait NormalLaw: Copy + Send + Sync + 'static {
     /// Whether the force depends on the [`contact_radius`].
     const USES_CONTACT_RADIUS: bool = false;
 
-    /// Whether the law uses the effective mass. If not, [`force`](Self::force) may be given any.
+    /// Whether the law uses the effective mass. If not, [`force`](Self::force) ignores it.
     const NEEDS_EFFECTIVE_MASS: bool = false;
 
     /// Repulsive force (N) from the overlap (m), its rate (m/s), the [`contact_radius`] (m) and the
-    /// effective mass m1 m2 / (m1 + m2) (kg; at a wall or a fixed sphere, that of the moving
+    /// effective mass m1 m2 / (m1 + m2) (kg; at a wall or a fixed sphere the mass of the moving
     /// sphere).
     fn force(
         &self,
@@ -51,7 +51,7 @@ pub trait NormalLaw: Copy + Send + Sync + 'static {
         effective_mass: f64,
     ) -> f64;
 
-    /// The force (N) at that overlap (m) without relative velocity.
+    /// The force (N) at this overlap (m) without relative velocity.
     fn elastic_force(&self, overlap: f64, effective_radius: f64) -> f64 {
         let contact_radius = contact_radius(overlap, effective_radius);
         self.force(overlap, 0.0, contact_radius, 0.0)
@@ -63,13 +63,13 @@ pub trait NormalLaw: Copy + Send + Sync + 'static {
         0.0
     }
 
-    /// Elastic energy (J) stored at that overlap.
+    /// Elastic energy (J) stored at this overlap.
     fn elastic_energy(&self, overlap: f64, effective_radius: f64) -> f64;
 
-    /// dF / d overlap (N/m) at that overlap.
+    /// dF / d overlap (N/m) at this overlap.
     fn stiffness(&self, overlap: f64, effective_radius: f64) -> f64;
 
-    /// dF / d overlap rate (N s/m) at that overlap, for an effective mass (kg).
+    /// dF / d overlap rate (N s/m) at this overlap, for an effective mass (kg).
     fn damping(&self, overlap: f64, effective_radius: f64, effective_mass: f64) -> f64;
 
     /// Deepest overlap (m) of an impact without losses, which at the given overlap (m) still has
@@ -117,9 +117,8 @@ impl NormalLaw for NoContact {
 mod tests {
     use super::contact_radius;
 
-    /// Symptom: a force that is not a number on spheres that just touch. Cause: the root of an
-    /// overlap that rounding makes negative by a hair, where the squares of the distances say that
-    /// they touch.
+    /// Symptom: NaN forces on spheres that just touch. Cause: the root of an overlap that rounding
+    /// made slightly negative, although the squared distances said that they touch.
     #[test]
     fn partners_a_hair_apart_touch_in_a_point() {
         assert_eq!(contact_radius(-1e-19, 0.004), 0.0);

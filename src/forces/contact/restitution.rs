@@ -48,8 +48,8 @@ fn runge_kutta(slope: impl Fn([f64; 2]) -> [f64; 2], state: [f64; 2], step: f64)
     ahead([mean(0), mean(1)], step)
 }
 
-/// The damping parameter b of a restitution: bisection, so that it depends on nothing but
-/// multiplications, additions and divisions. Restitutions below that of b = 100 give 100.
+/// The damping parameter b of a restitution, by bisection, so that it depends only on
+/// multiplications, additions and divisions. At most 100: smaller restitutions give 100.
 pub fn damping_parameter(target: f64) -> f64 {
     if target >= 1.0 {
         return 0.0;

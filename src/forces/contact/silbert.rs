@@ -77,9 +77,9 @@ impl ContactKeys for Silbert {
 /// (Silbert et al., Phys. Rev. E 64, 051302 (2001), for Hertzian spheres, in the form of
 /// `gran/hertz/history` of LAMMPS).
 ///
-/// As there it attracts at the end of a contact, where spheres part faster than their elasticity
-/// recovers: they are in contact until their overlap is zero. (LAMMPS leaves the attraction out if
-/// it is asked to, by `limit_damping`.)
+/// As in LAMMPS, it attracts at the end of a contact, where spheres part faster than their
+/// elasticity recovers: they are in contact until their overlap is zero. (LAMMPS removes the
+/// attraction with `limit_damping`.)
 #[derive(Clone, Copy, Debug)]
 pub struct SilbertLaw {
     /// sqrt(R_eff xi) k_n xi.

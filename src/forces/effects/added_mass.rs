@@ -7,12 +7,12 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Added mass (Lamb, Hydrodynamics (1932), section 92): a sphere in an ideal fluid moves as if its
-/// mass were m + C rho V, also while it touches others. Its weight and its moment of inertia stay,
-/// and kinetic energies hold that of the fluid.
+/// mass were m + C rho V, also while it touches others. Its weight and its moment of inertia do not
+/// change, and kinetic energies include the fluid's share.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct AddedMass {
-    /// Coefficient C (default 1/2, that of a sphere far from others and from walls).
+    /// Coefficient C (default 1/2, for a sphere far from others and from walls).
     #[serde(default = "half")]
     #[schemars(
         transform = quantity("C_m", "", "coefficient of the added mass").at_least(0.0).at_most(1e3)
@@ -34,8 +34,8 @@ impl AddedMass {
     }
 }
 
-/// No force: spheres are given the inertia of the added mass where they are placed, and the limits
-/// of the time step know of it by their masses.
+/// No force: spheres get the inertia of the added mass when they are placed, and the limits of the
+/// time step include it in the masses.
 impl EffectKeys for AddedMass {
     fn effect(&self, _: &Effects, _: &Targets<'_>) -> Option<Box<dyn Effect>> {
         None

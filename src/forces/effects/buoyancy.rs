@@ -1,4 +1,4 @@
-//! Buoyancy: the fluid that a sphere displaces presses it against gravity.
+//! Buoyancy: the displaced fluid pushes a sphere against gravity.
 
 use super::gravity::GravityForce;
 use super::{Effect, EffectKeys, Effects, SceneFacts, Targets};

@@ -18,7 +18,7 @@ use serde_json::json;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Drag {
-    /// Linear coefficient, with the unit that `law` says.
+    /// Linear coefficient; `law` determines its unit.
     #[serde(default)]
     #[schemars(
         transform = quantity("M_1", "kg/(m² s)", "linear drag coefficient")
@@ -27,7 +27,7 @@ pub struct Drag {
             .unit_where("law", "constant", "kg/s")
     )]
     pub linear: f64,
-    /// Quadratic coefficient, with the unit that `law` says.
+    /// Quadratic coefficient; `law` determines its unit.
     #[serde(default)]
     #[schemars(
         transform = quantity("M_2", "kg/m³", "quadratic drag coefficient")
@@ -79,13 +79,13 @@ pub enum DragForm {
     /// |dv| dv: isotropic (physically correct).
     #[default]
     Vector,
-    /// dv_x |dv_x| and so on: each component by itself, as the thesis ran it.
+    /// dv_x |dv_x| and so on: each component separately, as in the thesis.
     Component,
 }
 
 impl Drag {
-    /// Coefficients of a sphere of that radius (m) for the kernel: c1 (kg/s) and c2 (kg/m), or
-    /// those of [`SchillerNaumann`].
+    /// Coefficients of a sphere of this radius (m) for the kernel: c1 (kg/s) and c2 (kg/m), or the
+    /// coefficients of [`SchillerNaumann`].
     fn coefficients(&self, radius: f64) -> (f64, f64) {
         let diameter = 2.0 * radius;
         match self.law {
@@ -96,14 +96,14 @@ impl Drag {
             DragLaw::Diameter => (self.linear * diameter, self.quadratic * diameter * diameter),
             DragLaw::Constant => (self.linear, self.quadratic),
             DragLaw::SchillerNaumann => {
-                // A scene without them is refused.
+                // Scenes without them are refused.
                 let (viscosity, density) = self.viscosity.zip(self.density).unwrap_or((1.0, 0.0));
                 SchillerNaumann::coefficients(viscosity, density, radius)
             }
         }
     }
 
-    /// Force over speed (kg/s) on a sphere of that radius (m), in air that passes it at a speed
+    /// Force over speed (kg/s) on a sphere of this radius (m), in air that passes it at a speed
     /// (m/s) along one axis.
     pub fn coefficient(&self, radius: f64, speed: f64) -> f64 {
         let (c1, c2) = self.coefficients(radius);
@@ -122,14 +122,14 @@ impl Drag {
         }
     }
 
-    /// The speed (m/s) through the air at which the force on a sphere of that radius (m), along one
-    /// axis, is this (N); infinite if the force never is.
+    /// The speed (m/s) through the air at which the force on a sphere of this radius (m), along one
+    /// axis, reaches `force` (N); infinite if it never does.
     pub(super) fn speed_at(&self, radius: f64, force: f64) -> f64 {
         let (c1, c2) = self.coefficients(radius);
         match self.law {
             _ if force == 0.0 => 0.0,
             DragLaw::SchillerNaumann => SchillerNaumann::speed_at(c1, c2, force),
-            // The root of c1 u + c2 u^2 = F, in the form that does not cancel.
+            // The root of c1 u + c2 u^2 = F, in the form without cancellation.
             _ => 2.0 * force / (c1 + (c1 * c1 + 4.0 * c2 * force).sqrt()),
         }
     }
@@ -154,9 +154,9 @@ impl EffectKeys for Drag {
     /// dF/du / m, which is (c1 + 2 c2 u) / m where the force is c1 u + c2 u^2. Swirl and updraught
     /// both act on the vertical velocity.
     ///
-    /// Both forces change with place, and so are springs as well: the updraught, which decays with
-    /// height, of w^2 = beta F / m; the drag of the swirl, whose air is the faster the farther out,
-    /// of w^2 = g Omega with its part g of the rate; and the pressure of a fluid that turns.
+    /// Both forces change with place, and so act as springs as well: the updraught, which decays
+    /// with height, with w^2 = beta F / m; the drag of the swirl, whose air is faster farther out,
+    /// with w^2 = g Omega and its share g of the rate; and the pressure of a rotating fluid.
     fn limit(&self, all: &Effects, regime: &Regime<'_>) -> Option<Limit> {
         let updraught = all.updraught.as_ref().map_or(0.0, |air| {
             let height = regime.lowest_height - air.origin;
@@ -184,13 +184,13 @@ impl EffectKeys for Drag {
                 DragLaw::SchillerNaumann => {
                     "(w dt)^2 + 2 q g dt < 4 of the smallest sphere, with g = dF/du / m times the \
                      factors of swirl and updraught at the lowest height, and the largest of w^2 = \
-                     g Omega, beta F / m and the pressure of a fluid that turns; q = 2 for \
+                     g Omega, beta F / m and the pressure of a rotating fluid; q = 2 for \
                      synchronised-verlet, else 1"
                 }
                 _ => {
                     "(w dt)^2 + 2 q g dt < 4 of the smallest sphere, with g = (c1 + 2 c2 u) / m \
                      times the factors of swirl and updraught at the lowest height, and the \
-                     largest of w^2 = g Omega, beta F / m and the pressure of a fluid that turns; \
+                     largest of w^2 = g Omega, beta F / m and the pressure of a rotating fluid; \
                      q = 2 for synchronised-verlet, else 1"
                 }
             },
@@ -297,9 +297,9 @@ pub(super) trait DragKernel: Copy + Send + Sync + 'static {
 
 /// c1 u.
 #[derive(Clone, Copy)]
-pub(super) struct Linear;
+pub(super) struct LinearDrag;
 
-impl DragKernel for Linear {
+impl DragKernel for LinearDrag {
     #[inline(always)]
     fn vector(c1: f64, _: f64, air: Vector) -> Vector {
         air * c1
@@ -327,7 +327,7 @@ impl DragKernel for QuadraticVector {
     }
 }
 
-/// (c1 + c2 |u_x|) u_x and so on: each component by itself, as the thesis ran it.
+/// (c1 + c2 |u_x|) u_x and so on: each component separately, as in the thesis.
 #[derive(Clone, Copy)]
 pub(super) struct QuadraticComponents;
 

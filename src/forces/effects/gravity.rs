@@ -16,8 +16,8 @@ pub struct Gravity {
     /// Acceleration g (m/s2).
     #[schemars(transform = quantity("g", "m/s²", "acceleration of gravity").at_least(0.0))]
     pub acceleration: f64,
-    /// Angle by which it leans from straight down towards +x (rad, default 0): the floor is then
-    /// an incline that descends along x.
+    /// Tilt from straight down towards +x (rad, default 0): the floor is then an incline that
+    /// descends along x.
     #[serde(default, skip_serializing_if = "is_zero")]
     #[schemars(transform = quantity("θ", "rad", "tilt of gravity"))]
     pub tilt: f64,

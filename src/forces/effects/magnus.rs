@@ -11,16 +11,16 @@ use crate::particles::vector::Vector;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Lift of a spinning sphere that moves through a fluid (Rubinow and Keller, 1961):
-/// F = C pi r^3 rho (w x u), with spin w and velocity u relative to the air, which is at rest but
-/// for `swirl`.
+/// Lift of a spinning sphere that moves through a fluid (Rubinow and Keller, 1961): F = C pi r^3
+/// rho (w x u), with spin w and velocity u relative to the air, which is at rest except in `swirl`.
 ///
-/// C is 1 at small Reynolds numbers. Beyond, the form is kept and C is to be chosen: by the
-/// measurements of Oesterlé and Bui Dinh (1998) it is about 1/3 at Re = 100, where r |w| = |u|.
+/// C is 1 at small Reynolds numbers. At larger ones the same form is used with a smaller C:
+/// according to the measurements of Oesterlé and Bui Dinh (1998) about 1/3 at Re = 100 for r |w| =
+/// |u|.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Magnus {
-    /// Coefficient C (default 1, that of small Reynolds numbers; beyond it is less).
+    /// Coefficient C (default 1, for small Reynolds numbers; smaller at larger ones).
     #[serde(default = "one")]
     #[schemars(
         transform = quantity("C_w", "", "coefficient of the Magnus lift").at_least(0.0).at_most(1e3)
@@ -40,7 +40,7 @@ impl Magnus {
 
 /// Largest angle t (rad) by which the lift should turn a velocity in a step. Symplectic Euler and
 /// velocity Verlet then keep the speed, and turn by t^2 / 12 of the angle too little. In the other
-/// schemes the speed grows by t^3 / 4 per radian, 2 millionths at this angle.
+/// schemes the speed grows by t^3 / 4 per radian, 2e-6 at this angle.
 const LARGEST_TURN: f64 = 0.02;
 
 impl EffectKeys for Magnus {
@@ -67,7 +67,7 @@ impl EffectKeys for Magnus {
                           and of the air",
             consequence: Some(
                 "the lift turns velocities by wrong angles, and in schemes that predict velocities \
-                 it makes spinning spheres faster",
+                    it accelerates spinning spheres",
             ),
         })
     }
@@ -76,20 +76,21 @@ impl EffectKeys for Magnus {
         if scene.rotates {
             return Vec::new();
         }
-        let message = "[magnus] lifts spheres that spin, but without [friction] there are no spins";
+        let message = "[magnus] acts on spinning spheres, but without [friction] there are no \
+            spins";
         let help = "add [friction], or remove [magnus]";
         vec![Problem::new("magnus", message).help(help)]
     }
 }
 
-/// Rubinow and Keller, J. Fluid Mech. 11, 447 (1961): F = pi r^3 rho w x u (1 + O(Re)), without
-/// the viscous torque, which is [`SpinDamping`](super::SpinDamping)'s. Lift beyond small Re:
-/// Oesterlé and Bui Dinh, Exp. Fluids 25, 16 (1998), C = C_L / 2 where r |w| = |u|. Air in rigid
-/// rotation has at each place the velocity Omega x r and the spin Omega.
+/// Rubinow and Keller, J. Fluid Mech. 11, 447 (1961): F = pi r^3 rho w x u (1 + O(Re)), without the
+/// viscous torque, which is [`SpinDamping`](super::SpinDamping)'s. Lift at larger Re: Oesterlé and
+/// Bui Dinh, Exp. Fluids 25, 16 (1998), C = C_L / 2 where r |w| = |u|. Air in rigid rotation has at
+/// each place the velocity Omega x r and the spin Omega.
 ///
-/// The lift does no work. Where velocities lag behind the forces, it takes the mean of those before
-/// and after the kick, which keeps this so (Boris, Proc. 4th Conf. Num. Sim. Plasmas, 3 (1970)). It
-/// comes after all other forces on centres, which it needs for this mean.
+/// The lift does no work. If velocities lag behind the forces, it uses the mean velocity of before
+/// and after the kick, so that it still does no work (Boris, Proc. 4th Conf. Num. Sim. Plasmas, 3
+/// (1970)). It comes after all other forces on centres, which it needs for this mean.
 struct Lift {
     /// C pi r^3 rho / m.
     ratio: f64,

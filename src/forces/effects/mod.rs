@@ -32,11 +32,11 @@ use serde::{Deserialize, Serialize};
 
 /// List of all effects, in order of application. Effects with a potential energy come first: the
 /// ledger books the work of all after them as `work_of_air`. Each line: table name, struct, name in
-/// profiles ("" for a table that is no force itself, like the drag law or the added mass). The doc
-/// comment stands in the reference of keys, so it gives the formula.
+/// profiles ("" for a table that is not itself a force, like the drag law or the added mass). The
+/// doc comment appears in the reference of keys, so it gives the formula.
 macro_rules! effects {
     ($($(#[doc = $description:literal])+ $table:ident: $keys:ident = $name:literal,)+) => {
-        /// The effects on single spheres. One that is absent does not exist in the simulation.
+        /// The effects on single spheres. Absent effects do not exist in the simulation.
         #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
         pub struct Effects {
             $(
@@ -47,7 +47,7 @@ macro_rules! effects {
         }
 
         impl Effects {
-            /// Names in profiles; empty for tables that are no force themselves.
+            /// Names in profiles; empty for tables that are not forces themselves.
             const NAMES: &[&str] = &[$($name),+];
 
             /// Names of all tables, in the same order.
@@ -75,22 +75,23 @@ effects! {
     /// none.
     buoyancy: Buoyancy = "buoyancy",
     /// Mass C rho V of fluid that moves with each sphere, in impacts too; weights and moments of
-    /// inertia stay. Absent: none.
+    /// inertia do not change. Absent: none.
     added_mass: AddedMass = "",
-    /// The drag law that `swirl` and `updraught` share, and need: F = c1 u + c2 |u| u, with the
-    /// velocity u of the air relative to the sphere. `law` says what c1 and c2 are, or chooses
-    /// another formula.
+    /// The drag law that `swirl` and `updraught` share and need: F = c1 u + c2 |u| u, with the
+    /// velocity u of the air relative to the sphere. `law` defines c1 and c2, or chooses another
+    /// formula.
     drag: Drag = "",
     /// Drag toward air in rigid rotation about the axis, of velocity Omega x r (Rice, 2012, eqs. 21
     /// to 27): F = drag(Omega x r - v). With `buoyancy` or `added_mass` also the pressure of the
-    /// fluid that turns, -(rho_b + C rho_a) V Omega^2 (x, y), with their densities. Absent: none.
+    /// rotating fluid, -(rho_b + C rho_a) V Omega^2 (x, y), with their densities. Absent: none.
     swirl: Swirl = "swirl",
     /// Rising air that lower spheres shield (Rice, 2012, eq. 24): F_z = s exp(-beta (z - z0))
     /// alpha^n drag(v_air - v_z), with n the number of lower spheres whose centre lies within 2r in
     /// |dx| and in |dy|, and `speed` v_air. Absent: none.
     updraught: Updraught = "updraught",
     /// Magnus lift of spinning spheres (Rubinow and Keller, 1961): F = C pi r^3 rho w x u, with
-    /// spin w and velocity u relative to the fluid, which is at rest but for `swirl`. Absent: none.
+    /// spin w and velocity u relative to the fluid, which is at rest except in `swirl`. Absent:
+    /// none.
     magnus: Magnus = "Magnus lift",
     /// Viscous damping of spins: torque -c w, with spin w. Absent: none.
     spin_damping: SpinDamping = "spin damping",
@@ -120,8 +121,8 @@ pub(crate) struct Targets<'a> {
 
 /// The table of an effect in a scene.
 pub(crate) trait EffectKeys {
-    /// The effect on these spheres. None if the table is no force itself (drag, added mass). `all`
-    /// are the effects of the scene, of which it may use other tables.
+    /// The effect on these spheres. `None` if the table is not itself a force (drag, added mass).
+    /// `all` are the effects of the scene, whose tables it may use.
     fn effect(&self, all: &Effects, targets: &Targets<'_>) -> Option<Box<dyn Effect>>;
 
     /// Its limit of the time step, if it has one. The program takes the smallest limit, not their
@@ -131,7 +132,7 @@ pub(crate) trait EffectKeys {
         None
     }
 
-    /// The fastest speed (m/s) that the effect gives a sphere within that distance (m) of the axis.
+    /// The fastest speed (m/s) that the effect gives a sphere within this distance (m) of the axis.
     fn fastest(&self, _reach: f64) -> f64 {
         0.0
     }
@@ -147,13 +148,13 @@ pub(crate) trait EffectKeys {
         vec![off]
     }
 
-    /// What is wrong with this table beside `all` effects of that scene.
+    /// Conflicts of this table with `all` effects of the scene.
     fn problems(&self, _all: &Effects, _scene: &SceneFacts) -> Vec<Problem> {
         Vec::new()
     }
 
-    /// Whether the effect keeps an array with a number per sphere. It then does not go with spheres
-    /// that come or go, and its loop implements `reorder`.
+    /// Whether the effect keeps an array with a number per sphere. It then excludes spheres that
+    /// come or go, and its loop implements `reorder`.
     fn keeps_numbers_per_sphere(&self) -> bool {
         false
     }
@@ -191,7 +192,7 @@ impl Effects {
         self.acting().enumerate().filter_map(effect).collect()
     }
 
-    /// Gravity, less the buoyancy of spheres of a density (kg/m3).
+    /// Gravity minus the buoyancy of spheres of a density (kg/m3).
     pub(crate) fn gravity_in_fluid(&self, density: f64) -> Option<Gravity> {
         let gravity = self.gravity.as_ref()?;
         let ratio = self.buoyancy.as_ref().map_or(0.0, |it| it.ratio(density));
@@ -207,7 +208,7 @@ impl Effects {
     }
 
     /// Mass of the fluid that a sphere displaces and of its added mass, over the mass of spheres of
-    /// a density (kg/m3): what a fluid that is accelerated takes with it.
+    /// a density (kg/m3): the mass that an accelerated fluid carries along.
     pub(crate) fn pressed_mass_ratio(&self, density: f64) -> f64 {
         let displaced = self.buoyancy.as_ref().map_or(0.0, |it| it.ratio(density));
         displaced + self.added_mass_ratio(density)
@@ -232,16 +233,15 @@ impl Effects {
             .filter_map(|keys| keys.limit(self, regime))
     }
 
-    /// The fastest speed (m/s) that an effect gives a sphere within that distance (m) of the axis.
+    /// The fastest speed (m/s) that any effect gives a sphere within this distance (m) of the axis.
     pub(crate) fn fastest(&self, reach: f64) -> f64 {
         let speeds = self.keys().flatten().map(|keys| keys.fastest(reach));
         speeds.fold(0.0, f64::max)
     }
 
-    /// The speed (m/s) through the air at which drag holds a sphere of that radius (m), mass (kg)
-    /// and density (kg/m3) against gravity, wherever it is. None if there is no such drag: an
-    /// updraught acts along z only, fades or grows with height, and fades below other spheres,
-    /// unless the sphere is `alone`.
+    /// The terminal speed (m/s) through the air of a sphere of this radius (m), mass (kg) and
+    /// density (kg/m3), at any place. `None` if there is no such drag: an updraught acts only along
+    /// z, changes with height, and is weaker above other spheres unless the sphere is `alone`.
     pub(crate) fn terminal_speed(
         &self,
         radius: f64,
@@ -255,7 +255,7 @@ impl Effects {
         let strength = |air: &Updraught| air.strength_in(self.swirl.as_ref());
         let updraught = match self.updraught.as_ref() {
             Some(air) if strength(air) == 0.0 => 0.0,
-            // Below it grows without end, and the limit of the step with it.
+            // Below, it grows without limit.
             Some(air) if air.decay != 0.0 && along_z < 0.0 => return None,
             Some(air) if air.decay == 0.0 && (air.alpha == 1.0 || alone) => strength(air),
             _ => 0.0,
@@ -291,8 +291,8 @@ impl Effects {
         tables.filter_map(of_table).flatten().collect()
     }
 
-    /// Names of tables that must be removed together: `table`, and those that need it. Without a
-    /// `table`, those that do not go with the other tables or with that scene.
+    /// Names of tables that must be removed together: `table` and the tables that need it. Without
+    /// a `table`, those that conflict with other tables or with the scene.
     pub(crate) fn removed_with(
         &self,
         table: Option<&'static str>,
@@ -319,7 +319,7 @@ impl Effects {
         removed
     }
 
-    /// Tables that do not go together, or not with that scene.
+    /// Conflicts between tables, or with the scene.
     pub(crate) fn problems(&self, scene: &SceneFacts) -> Vec<Problem> {
         let tables = self.keys().flatten();
         tables.flat_map(|keys| keys.problems(self, scene)).collect()

@@ -8,7 +8,7 @@ use crate::particles::vector::Vector;
 use serde_json::json;
 use std::f64::consts::PI;
 
-/// C_d of fast flow: that of Newton's law.
+/// C_d of fast flow, as in Newton's law.
 const FAST: f64 = 0.44;
 
 /// Schiller and Naumann (Z. Ver. Dtsch. Ing. 77, 318 (1933)): F = (pi/8) C_d rho D^2 |u| u with
@@ -34,7 +34,7 @@ fn over_stokes(reynolds: f64) -> f64 {
 }
 
 impl SchillerNaumann {
-    /// The coefficients c1 (kg/s) and c2 (s/m) of a sphere of that radius (m).
+    /// The coefficients c1 (kg/s) and c2 (s/m) of a sphere of this radius (m).
     pub(super) fn coefficients(viscosity: f64, density: f64, radius: f64) -> (f64, f64) {
         let diameter = 2.0 * radius;
         (
@@ -43,13 +43,13 @@ impl SchillerNaumann {
         )
     }
 
-    /// Force over speed (kg/s) at that speed (m/s).
+    /// Force over speed (kg/s) at a speed (m/s).
     pub(super) fn coefficient(c1: f64, c2: f64, speed: f64) -> f64 {
         c1 * over_stokes(c2 * speed)
     }
 
-    /// The speed (m/s) at which the force is this (N): between 0 and the speed of Stokes' law, to
-    /// the last digit.
+    /// The speed (m/s) at which the force reaches `force` (N), to the last digit. It lies between 0
+    /// and the speed by Stokes' law.
     pub(super) fn speed_at(c1: f64, c2: f64, force: f64) -> f64 {
         let (mut slow, mut fast) = (0.0, force / c1);
         loop {
@@ -64,7 +64,7 @@ impl SchillerNaumann {
         }
     }
 
-    /// dF/du (kg/s) at that speed u (m/s), where it is larger than at any lower speed.
+    /// The largest dF/du (kg/s) at speeds up to u (m/s).
     pub(super) fn slope(c1: f64, c2: f64, speed: f64) -> f64 {
         let reynolds = c2 * speed;
         let power = 0.15 * libm::pow(reynolds, 0.687);
@@ -88,7 +88,7 @@ impl DragKernel for SchillerNaumann {
     }
 }
 
-/// Its limits of slow and of fast flow as simpler laws: linear (Stokes) and quadratic (Newton).
+/// Its limits for slow and fast flow as simpler laws: linear (Stokes) and quadratic (Newton).
 pub(super) fn simplifications(drag: &Drag) -> Vec<Simplification> {
     let Some((viscosity, density)) = drag.viscosity.zip(drag.density) else {
         return Vec::new();
@@ -116,7 +116,7 @@ pub(super) fn simplifications(drag: &Drag) -> Vec<Simplification> {
     ]
 }
 
-/// Keys of this law that are missing, and keys of other laws beside it.
+/// Missing keys of this law, and keys that belong to other laws.
 pub(super) fn problems(drag: &Drag) -> Vec<Problem> {
     let missing = [
         (
@@ -133,7 +133,7 @@ pub(super) fn problems(drag: &Drag) -> Vec<Problem> {
     let missing = missing.iter().filter(|(_, value, _)| value.is_none());
     let missing = missing.map(|(path, _, known)| {
         let name = path.trim_start_matches("drag.");
-        let message = format!("the law `schiller-naumann` needs `{name}`, that of the fluid");
+        let message = format!("the law `schiller-naumann` needs the fluid's `{name}`");
         Problem::new("drag", message).help(format!("add `{name}` to [drag]: {known}"))
     });
     let strange = [

@@ -1,7 +1,7 @@
-//! Drag toward air in rigid rotation about the axis, and the pressure of a fluid that turns.
+//! Drag toward air in rigid rotation about the axis, and the pressure of a rotating fluid.
 
 use super::drag::{
-    Coefficients, DragKernel, Form, Linear, QuadraticComponents, QuadraticVector, missing_drag,
+    Coefficients, DragKernel, Form, LinearDrag, QuadraticComponents, QuadraticVector, missing_drag,
 };
 use super::schiller_naumann::SchillerNaumann;
 use super::{Effect, EffectKeys, Effects, OneBody, SceneFacts, Targets};
@@ -43,7 +43,7 @@ impl EffectKeys for Swirl {
         let pressure = all.pressed_mass_ratio(targets.scene.density) * self.omega * self.omega;
         let rates = [self.omega, pressure];
         Some(match drag.kernel() {
-            Form::Linear => boxed::<Linear>(rates, coefficients),
+            Form::Linear => boxed::<LinearDrag>(rates, coefficients),
             Form::Vector => boxed::<QuadraticVector>(rates, coefficients),
             Form::Components => boxed::<QuadraticComponents>(rates, coefficients),
             Form::SchillerNaumann => boxed::<SchillerNaumann>(rates, coefficients),
@@ -82,9 +82,9 @@ impl EffectKeys for Swirl {
 /// Rice (2012), eqs. 21 to 27: drag toward the air's velocity Omega x r, on all three
 /// components, the air's own vertical speed being zero in this term.
 ///
-/// A fluid that turns is accelerated toward the axis by its pressure, and so is what it displaces,
-/// with the added mass: -(rho_b + C rho_a) V Omega^2 (x, y) (Maxey and Riley, Phys. Fluids 26, 883
-/// (1983), eq. 48: the fluid's acceleration in buoyancy and added mass).
+/// The pressure of a rotating fluid accelerates the fluid toward the axis, and with it the
+/// displaced volume and the added mass: -(rho_b + C rho_a) V Omega^2 (x, y) (Maxey and Riley, Phys.
+/// Fluids 26, 883 (1983), eq. 48: the fluid's acceleration in buoyancy and added mass).
 struct SwirlForce<K> {
     omega: f64,
     /// (rho_b + C rho_a) / rho Omega^2 (1/s2), 0 in air.

@@ -1,6 +1,6 @@
 //! Rising air with the rectangular counting shield.
 
-use super::drag::{Coefficients, DragKernel, Form, Linear, QuadraticComponents, missing_drag};
+use super::drag::{Coefficients, DragKernel, Form, LinearDrag, QuadraticComponents, missing_drag};
 use super::schiller_naumann::SchillerNaumann;
 use super::{Effect, EffectKeys, Effects, OneBody, SceneFacts, Swirl, Targets};
 use crate::document::quantities::{fraction, place};
@@ -37,8 +37,8 @@ pub struct Updraught {
     /// Factor alpha per shielding sphere below, 0 to 1.
     #[schemars(transform = fraction("α", "factor per shielding sphere"))]
     pub alpha: f64,
-    /// Rotation Omega_0 (rad/s) of the swirl at which the force is as given; at another Omega it is
-    /// (Omega / Omega_0)^2 times that (Rice, 2012, eq. 44). Absent: the swirl does not matter.
+    /// Rotation Omega_0 (rad/s) of the swirl for which the force is given; at another Omega it is
+    /// multiplied by (Omega / Omega_0)^2 (Rice, 2012, eq. 44). Absent: independent of the swirl.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(
         transform = quantity("Ω_0", "rad/s", "rotation at which the updraught is as given")
@@ -79,7 +79,7 @@ impl EffectKeys for Updraught {
             ..self.clone()
         };
         Some(match drag.kernel() {
-            Form::Linear => boxed::<Linear>(parameters, coefficients),
+            Form::Linear => boxed::<LinearDrag>(parameters, coefficients),
             // Along one axis the two quadratic forms are the same.
             Form::Vector | Form::Components => {
                 boxed::<QuadraticComponents>(parameters, coefficients)

@@ -48,10 +48,10 @@ impl<C> FrictionKeys<C> for Coulomb {
             name: "regularised friction",
             seconds: regime.scheme.oscillator(0.0, rate),
             decisive: false,
-            explanation: "2 u_0 m_eff / ((1 + m r^2 / I) q mu F) at the largest force; above it \
-                          sliding that should stop changes sign from step to step; q = 2 for \
+            explanation: "2 u_0 m_eff / ((1 + m r^2 / I) q mu F) at the largest force; above it, \
+                          sliding that should stop changes sign in every step; q = 2 for \
                           synchronised-verlet, else 1",
-            consequence: Some("sliding that should stop may change sign from step to step"),
+            consequence: Some("sliding that should stop may change sign in every step"),
         })
     }
 }

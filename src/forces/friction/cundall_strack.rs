@@ -148,20 +148,20 @@ mod tests {
             |found: f64, expected: f64| assert!((found - expected).abs() < 1e-12, "{found}");
         close(slide(law, &mut spring, 0.1, 100), -0.5);
         close(slide(law, &mut spring, 0.1, 100), -0.6);
-        // It unloads at once, by k_t du, however far it slid.
+        // It unloads at once, by k_t du, no matter how far it slid.
         close(slide(law, &mut spring, -0.1, 100), -0.6 + 0.5);
         close(slide(law, &mut spring, -0.1, 300), 0.6);
     }
 
     #[test]
     fn spring_and_dashpot_are_capped_together() {
-        // b_t u = 0.5 N: of the 0.6 N that friction can carry, 0.1 N are left to the spring.
+        // b_t u = 0.5 N leaves the spring 0.1 N of the 0.6 N that friction can carry.
         let law = CundallStrackLaw::new(0.3, 50.0, 5.0);
         let mut spring = Spring::default();
         let force = slide(law, &mut spring, 0.1, 1000);
         assert!((force + 0.6).abs() < 1e-12, "{force}");
         assert!((spring.force.z + 0.1).abs() < 1e-12, "{:?}", spring.force);
-        // Where the sliding stops the spring is all there is.
+        // When the sliding stops, only the spring is left.
         let force = slide(law, &mut spring, 0.0, 1);
         assert!((force + 0.1).abs() < 1e-12, "{force}");
     }

@@ -1,7 +1,7 @@
 //! What a tangential spring keeps while its stiffness changes.
 
 use super::{History, Spring, Touch};
-use crate::particles::block::Row;
+use crate::particles::block::VectorRow;
 use crate::particles::vector::Vector;
 use serde::{Deserialize, Serialize};
 
@@ -9,38 +9,38 @@ use serde::{Deserialize, Serialize};
 /// changes and the surfaces do not slide.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Keeps {
-    /// Its force. It makes energy when the contact is released, as its energy is f^2 / (2 k).
+    /// Its force. Releasing the contact creates energy, because the energy is f^2 / (2 k).
     Force,
-    /// Its displacement. It makes energy when the contact is pressed harder, as its energy is k u^2
+    /// Its displacement. Pressing the contact harder creates energy, because the energy is k u^2
     /// / 2.
     Displacement,
-    /// Its force while the contact is pressed harder, and its displacement while it is released:
-    /// it never makes energy (Elata and Berryman, Mech. Mater. 24, 229 (1996); Thornton, Cummins
-    /// and Cleary, Powder Technol. 233, 30 (2013)).
+    /// Its force while the contact is pressed harder, and its displacement while it is released: it
+    /// never creates energy (Elata and Berryman, Mech. Mater. 24, 229 (1996); Thornton, Cummins and
+    /// Cleary, Powder Technol. 233, 30 (2013)).
     Lesser,
 }
 
 impl Keeps {
-    /// How the force of a spring changes with the contact radius (m). A new contact has a radius of
-    /// zero before and no force.
+    /// How the force of a spring changes with the contact radius (m). A new contact had a radius of
+    /// zero and no force before.
     #[inline(always)]
-    pub(crate) fn change(self, before: f64, now: f64) -> Change {
+    pub(crate) fn change(self, before: f64, now: f64) -> ForceChange {
         match self {
-            Self::Force => Change::NONE,
-            Self::Displacement => Change {
+            Self::Force => ForceChange::NONE,
+            Self::Displacement => ForceChange {
                 from: before,
                 to: now,
             },
-            Self::Lesser => Change {
+            Self::Lesser => ForceChange {
                 from: before,
                 to: lesser(now, before),
             },
         }
     }
 
-    /// The contact radius (m) at which sliding loads the spring: the mean one of the time since the
-    /// last evaluation while it keeps its force, and the present one while it keeps its
-    /// displacement. The mean one is the smaller one while the contact is pressed harder.
+    /// The contact radius (m) at which sliding loads the spring: the mean radius since the last
+    /// evaluation while it keeps its force, and the present radius while it keeps its displacement.
+    /// The mean is the smaller of the two while the contact is pressed harder.
     #[inline(always)]
     pub(super) fn loading_radius(self, touch: &Touch) -> f64 {
         match self {
@@ -51,16 +51,16 @@ impl Keeps {
     }
 }
 
-/// A change of a spring's force by the factor `to` / `from`; of a force of zero if `from` is zero.
-/// The quotient is a part of the root by which a spring [turns](Spring::turned_to), and so takes no
+/// A change of a spring's force by the factor `to` / `from`; the force is zero if `from` is zero.
+/// The quotient is part of the root by which a spring [turns](Spring::turned_to), and so costs no
 /// time.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Change {
+pub(crate) struct ForceChange {
     pub(super) from: f64,
     pub(super) to: f64,
 }
 
-impl Change {
+impl ForceChange {
     /// No change.
     pub(crate) const NONE: Self = Self { from: 1.0, to: 1.0 };
 
@@ -82,7 +82,7 @@ fn lesser(one: f64, other: f64) -> f64 {
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 #[repr(C, align(32))]
 pub struct SpringAtRadius {
-    row: Row,
+    row: VectorRow,
 }
 
 impl SpringAtRadius {
@@ -118,12 +118,12 @@ impl History for SpringAtRadius {
     }
 
     #[inline(always)]
-    fn row(self) -> Row {
+    fn row(self) -> VectorRow {
         self.row
     }
 
     #[inline(always)]
-    fn of_row(row: Row) -> Self {
+    fn of_row(row: VectorRow) -> Self {
         Self { row }
     }
 
@@ -163,8 +163,8 @@ mod tests {
         }
     }
 
-    /// The work (J) that the force of a contact does along straight lines through these places and
-    /// contact radii (m), in steps.
+    /// The work (J) of a contact's force along straight lines through these places and contact
+    /// radii (m), in steps.
     fn given<T: TangentialLaw<History = SpringAtRadius>>(law: &T, path: &[[f64; 2]]) -> f64 {
         const STEPS: u32 = 1000;
         let mut history = SpringAtRadius::default();
@@ -214,7 +214,7 @@ mod tests {
         }
     }
 
-    /// Crooked paths from a contact that holds nothing.
+    /// Random paths from an unloaded contact.
     #[test]
     fn no_path_gives_energy_if_the_spring_rescales() {
         let mindlin = MindlinLaw::new(1.0, 1e6, 0.3).keeping(Keeps::Lesser);

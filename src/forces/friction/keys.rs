@@ -24,7 +24,7 @@ pub enum Friction {
     SilbertFriction(SilbertFriction),
 }
 
-/// The keys of a friction law beside the contact law `C`.
+/// The keys of a friction law used with the contact law `C`.
 pub(crate) trait FrictionKeys<C> {
     /// The law for the engine.
     type Law: TangentialLaw;
@@ -88,8 +88,8 @@ impl Friction {
         }
     }
 
-    /// The form of a law whose formula has changed while its keys have not, none of one that is as
-    /// it was. Runs of different forms differ.
+    /// The form of a law whose formula has changed although its keys have not; `None` if it has not
+    /// changed. Runs of different forms differ.
     pub(crate) fn form(&self) -> Option<&'static str> {
         match self {
             Self::SilbertFriction(_) => Some("keeps its displacement"),
@@ -97,8 +97,8 @@ impl Friction {
         }
     }
 
-    /// Coefficient mu of a law that can hold spheres against a force; none of one that only slows
-    /// their spins.
+    /// Coefficient mu of a law that can hold spheres against a force; `None` if it only slows their
+    /// spins.
     pub fn holding_coefficient(&self) -> Option<f64> {
         match self {
             Self::Spin(_) => None,

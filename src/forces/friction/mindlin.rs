@@ -19,7 +19,7 @@ pub struct Mindlin {
     #[schemars(transform = quantity("μ", "", "coefficient of friction").at_least(0.0))]
     pub coefficient: f64,
     /// Whether the spring keeps its displacement while the contact is released, and its force while
-    /// it is pressed harder. Then it never makes energy (Thornton, Cummins and Cleary, 2013;
+    /// it is pressed harder. Then it never creates energy (Thornton, Cummins and Cleary, 2013;
     /// `mindlin_rescale/force` of LAMMPS). If not, it always keeps its force.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub rescale: bool,
@@ -59,7 +59,7 @@ impl FrictionKeys<Hertz> for Mindlin {
     }
 }
 
-/// The limit of the time step by Mindlin's spring of a contact that sticks.
+/// The limit of the time step from Mindlin's spring at a sticking contact.
 pub(super) fn mindlin_limit(
     contact: &Hertz,
     collisions: &[Collision],
@@ -78,21 +78,21 @@ pub(super) fn mindlin_limit(
     })
 }
 
-/// 8 G* (Pa) of Young's modulus (Pa) and Poisson's ratio of both partners.
+/// 8 G* (Pa) from Young's modulus (Pa) and Poisson's ratio of both partners.
 pub(super) fn mindlin_modulus(young_modulus: f64, poisson_ratio: f64) -> f64 {
     let shear_modulus = young_modulus / (2.0 * (1.0 + poisson_ratio));
     8.0 * shear_modulus / (2.0 * (2.0 - poisson_ratio))
 }
 
-/// Mindlin's tangential stiffness k_t = 8 G* sqrt(R_eff xi) on a contact that sticks, loaded and
+/// Mindlin's tangential stiffness k_t = 8 G* sqrt(R_eff xi) of a sticking contact, loaded and
 /// unloaded by increments of the sliding displacement, df = -k_t du, and capped at mu F_n; G* = G /
 /// (2 (2 - nu)) for equal materials (Mindlin, J. Appl. Mech. 16, 259 (1949); Chung and Ooi,
 /// Granular Matter 13, 643 (2011)).
 ///
-/// The force of a spring that holds still stays when the normal force falls, although its
-/// stiffness does not, unless the law is to keep something else ([`Keeps`]). An elastic impact can
-/// so gain energy, less than 1e-5 of it for nu >= 0.22 and mu < 3, up to 4e-4 for nu = 0 and mu =
-/// 0.5; closed paths can gain more.
+/// When the normal force of a contact at rest falls, the spring keeps its force although its
+/// stiffness falls, unless the law keeps something else ([`Keeps`]). An elastic impact can thus
+/// gain energy: a fraction below 1e-5 for nu >= 0.22 and mu < 3, up to 4e-4 for nu = 0 and mu =
+/// 0.5. Closed paths can gain more.
 #[derive(Clone, Copy, Debug)]
 pub struct MindlinLaw {
     coefficient: f64,

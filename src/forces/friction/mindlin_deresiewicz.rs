@@ -11,8 +11,8 @@ use crate::particles::vector::Vector;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Partial slip (Mindlin and Deresiewicz, 1953): from its rim inward a contact slides before all of
-/// it does, so that the stiffness falls while it is loaded, and loads that turn back lose energy
+/// Partial slip (Mindlin and Deresiewicz, 1953): a contact slips from its rim inward before it
+/// slides as a whole, so that the stiffness falls under load, and reversed loads dissipate energy
 /// below mu F_n; needs the Hertz contact.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -38,7 +38,7 @@ impl FrictionKeys<Hertz> for MindlinDeresiewicz {
         )
     }
 
-    /// That of a contact that sticks, whose spring is the stiffest.
+    /// The limit of a sticking contact, whose spring is stiffest.
     fn limit(
         &self,
         contact: &Hertz,
@@ -108,21 +108,21 @@ impl History for SlipHistory {
 /// (Mindlin and Deresiewicz, J. Appl. Mech. 20, 327 (1953); as increments: Vu-Quoc and Zhang, Mech.
 /// Mater. 31, 235 (1999), and Thornton, Cummins and Cleary, Powder Technology 233, 30 (2013)).
 ///
-/// The stiffness is k_t theta, with Mindlin's k_t = 8 G* sqrt(R_eff xi) of a contact that sticks,
-/// and theta^3 = 1 - |f - f_0| / (s mu F_n): s = 1 and f_0 = 0 when the contact is loaded first,
-/// s = 2 and f_0 the force at the latest turning point when it is unloaded or reloaded. Once the
-/// force exceeds that at which it was first unloaded, the first curve goes on. Where the normal
-/// force changes by d, the turning point moves by mu d, and a displacement of less than mu d / k_t
-/// meets the full stiffness. For a constant normal force steps of any length follow the curves
-/// exactly, because theta^2 is linear in the displacement.
+/// The stiffness is k_t theta, with Mindlin's k_t = 8 G* sqrt(R_eff xi) of a sticking contact, and
+/// theta^3 = 1 - |f - f_0| / (s mu F_n): s = 1 and f_0 = 0 when the contact is loaded first, s = 2
+/// and f_0 the force at the latest turning point when it is unloaded or reloaded. Once the force
+/// exceeds the force of first unloading, the first curve continues. If the normal force changes by
+/// d, the turning point moves by mu d, and a displacement below mu d / k_t meets the full
+/// stiffness. For a constant normal force steps of any length follow the curves exactly, because
+/// theta^2 is linear in the displacement.
 ///
-/// Two things are forgotten: of turning points within each other the latest alone counts, as in the
-/// third source, and the rim of a contact that is pressed harder while it is held counts as loaded.
-/// The first costs up to 0.35 mu F_n where a contact is unloaded in many small steps to and fro,
-/// and less on other paths of the tests. Otherwise the law agrees with a row of springs of which
-/// each slides by itself (a test compares them). In two dimensions, of which the sources say
-/// nothing, forces, turning points and displacements are vectors, and a contact turns back where
-/// the displacement has a part against its branch.
+/// The law makes two simplifications: only the latest of nested turning points counts, as in the
+/// third source, and the rim of a contact that is pressed harder at rest counts as loaded. The
+/// first leads to errors up to 0.35 mu F_n if a contact is unloaded in many small steps back and
+/// forth, and to smaller errors on the other paths in the tests. Otherwise the law agrees with a
+/// row of springs that slide independently (a test compares them). The sources do not treat two
+/// dimensions: here forces, turning points and displacements are vectors, and a contact turns back
+/// if the displacement has a component against its branch.
 #[derive(Clone, Copy, Debug)]
 pub struct MindlinDeresiewiczLaw {
     coefficient: f64,
@@ -142,8 +142,9 @@ impl MindlinDeresiewiczLaw {
 
 /// Where a contact is on one of its curves.
 ///
-/// Displacements are in units of (3/2) mu F_n / k_t, at which a contact of the present normal force
-/// begins to slide as a whole. In these the contact reaches 1 - theta^2 along its first curve.
+/// Displacements are in units of (3/2) mu F_n / k_t, at which a contact with the present normal
+/// force begins to slide as a whole. In these the contact reaches 1 - theta^2 along its first
+/// curve.
 struct Branch {
     /// Force at its origin (N).
     origin: Vector,
@@ -151,7 +152,7 @@ struct Branch {
     scale: f64,
     /// Displacement since its origin, over the scale, along the force.
     progress: Vector,
-    /// Most that the progress could be at the normal force before, in units of now.
+    /// Largest possible progress at the previous normal force, in present units.
     extent: f64,
     /// Force at which the first curve was left (N).
     peak: f64,
@@ -247,7 +248,7 @@ impl Branch {
         };
         let force = origin + direction(progress) * (self.scale * carried);
         let peak = self.peak + gain;
-        // The first curve goes on from where it was left.
+        // The first curve continues where it was left.
         let rejoins = !is_first && force.norm() >= peak;
         let origin = if rejoins { Vector::ZERO } else { origin };
         (force, origin, peak)

@@ -13,7 +13,7 @@ mod spring;
 
 pub use coulomb::{Coulomb, CoulombLaw};
 pub use cundall_strack::{CundallStrack, CundallStrackLaw};
-pub(crate) use keeps::Change;
+pub(crate) use keeps::ForceChange;
 pub use keeps::{Keeps, SpringAtRadius};
 pub use keys::Friction;
 pub(crate) use keys::{FrictionKeys, with_pairs_of_laws};
@@ -23,13 +23,13 @@ pub use silbert::{SilbertFriction, SilbertFrictionLaw};
 pub use spin::{Spin, SpinLaw};
 pub use spring::{LoadedSpring, Spring};
 
-use crate::particles::block::Row;
+use crate::particles::block::VectorRow;
 use crate::particles::math::inverse_square_root;
 use crate::particles::vector::Vector;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
-/// A touching pair, or a sphere touching a wall, as a tangential law sees it. The first
+/// A touching pair, or a sphere touching a wall, in the form that tangential laws take. The first
 /// partner is the sphere that the force acts on; a wall is a partner at rest, of infinite mass.
 #[derive(Clone, Copy, Debug)]
 pub struct Touch {
@@ -45,7 +45,7 @@ pub struct Touch {
     pub inertia: [f64; 2],
     /// The smaller of the two masses (kg).
     pub lesser_mass: f64,
-    /// m1 m2 / (m1 + m2) (kg), the mass of the one that moves where the other does not.
+    /// m1 m2 / (m1 + m2) (kg); the mass of the moving partner if the other is fixed.
     pub effective_mass: f64,
     /// The [contact radius](super::contact::contact_radius) (m), if a law uses it.
     pub contact_radius: f64,
@@ -88,7 +88,7 @@ pub(crate) fn arm(force: Vector, normal: Vector) -> Vector {
 }
 
 /// Velocity of one surface relative to the other at the contact point (m/s), tangential part, from
-/// that of the centres.
+/// the relative velocity of the centres.
 #[inline(always)]
 pub(crate) fn sliding_velocity(
     normal: Vector,
@@ -100,7 +100,7 @@ pub(crate) fn sliding_velocity(
     velocity.perpendicular_to(normal) - surface.cross(normal)
 }
 
-/// A contact where it is pressed most: the numbers from which its sub-steps are chosen.
+/// A contact at its deepest: the numbers from which its sub-steps are chosen.
 #[derive(Clone, Copy, Debug)]
 pub struct Grip {
     /// Overlap (m).
@@ -124,7 +124,7 @@ pub struct Traction {
     pub torque: [Vector; 2],
 }
 
-/// Where a contact with partial slip was loaded another way.
+/// Turning point of a contact with partial slip.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub struct Turning {
     /// The tangential force at the latest turning point (N); zero before the first one.
@@ -146,7 +146,7 @@ pub trait History: Copy + Default + Send + Sync + Serialize + DeserializeOwned {
     /// Its spring.
     fn spring(self) -> Spring;
 
-    /// The history of a contact with that spring.
+    /// The history of a contact with this spring.
     fn of_spring(spring: Spring) -> Self;
 
     /// Its turning point.
@@ -161,22 +161,22 @@ pub trait History: Copy + Default + Send + Sync + Serialize + DeserializeOwned {
         self
     }
 
-    /// The contact radius (m) at which the spring had its force, if it has that.
+    /// The contact radius (m) at which the spring had its force, if it is stored.
     #[inline(always)]
     fn radius(self) -> f64 {
         0.0
     }
 
-    /// The row of the spring's force and the contact radius, whose last number means nothing
-    /// without the radius.
+    /// The row of the spring's force and the contact radius. The last number has no meaning without
+    /// the radius.
     #[inline(always)]
-    fn row(self) -> Row {
+    fn row(self) -> VectorRow {
         self.spring().force.row()
     }
 
-    /// The history of a contact with that row.
+    /// The history of a contact with this row.
     #[inline(always)]
-    fn of_row(row: Row) -> Self {
+    fn of_row(row: VectorRow) -> Self {
         Self::of_spring(Spring {
             force: Vector::of_row(row),
         })
@@ -228,15 +228,15 @@ pub trait TangentialLaw: Copy + Send + Sync + 'static {
     const USES_CONTACT_RADIUS: bool = false;
     /// Whether the law uses the effective mass. If not, a [`Touch`] need not have it.
     const NEEDS_EFFECTIVE_MASS: bool = false;
-    /// Whether a dashpot acts beside the spring of a law with history.
+    /// Whether a dashpot acts in parallel with the spring of a law with history.
     const DRAGS: bool = false;
     /// Whether the force of a sliding contact is a spring that is loaded by increments and capped.
     const BY_INCREMENTS: bool = true;
     /// What a contact remembers from step to step; `()` costs nothing. A checkpoint stores it.
     type History: History;
 
-    /// Traction at a contact over the coming step; zero where the normal force is zero. Free of
-    /// branches, for a block of contacts at once. The `spring` is already [across the
+    /// Traction at a contact over the coming step; zero if the normal force is zero. Without
+    /// branches, because it is applied to blocks of contacts. The `spring` is already [across the
     /// normal](Spring::turned). A law without history does not change it. A law with a history
     /// implements [`load`](Self::load) instead.
     #[inline(always)]

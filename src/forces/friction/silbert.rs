@@ -29,7 +29,7 @@ pub struct SilbertFriction {
     )]
     pub damping: f64,
     /// Whether the spring keeps its displacement while the contact is released, and its force while
-    /// it is pressed harder. Then it never makes energy (Thornton, Cummins and Cleary, 2013;
+    /// it is pressed harder. Then it never creates energy (Thornton, Cummins and Cleary, 2013;
     /// `mindlin_rescale/force` of LAMMPS). If not, it always keeps its displacement.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub rescale: bool,
@@ -71,14 +71,14 @@ impl FrictionKeys<Silbert> for SilbertFriction {
     }
 }
 
-/// A spring of stiffness sqrt(R_eff xi) k_t and a dashpot sqrt(R_eff xi) gamma_t m_eff beside it, f
-/// = -sqrt(R_eff xi) (k_t u + gamma_t m_eff du/dt), together capped at mu |F_n| (Silbert et al.,
-/// Phys. Rev. E 64, 051302 (2001), for Hertzian spheres, in the form of `gran/hertz/history` of
-/// LAMMPS). The cap holds where partners attract each other too.
+/// A spring of stiffness sqrt(R_eff xi) k_t in parallel with a dashpot sqrt(R_eff xi) gamma_t
+/// m_eff, f = -sqrt(R_eff xi) (k_t u + gamma_t m_eff du/dt), together capped at mu |F_n| (Silbert
+/// et al., Phys. Rev. E 64, 051302 (2001), for Hertzian spheres, in the form of
+/// `gran/hertz/history` of LAMMPS). The cap also holds while partners attract each other.
 ///
 /// The spring keeps its displacement u: if a contact at rest is pressed harder, the tangential
-/// force grows. That makes energy, which [`Keeps::Lesser`] does not. The displacement turns with
-/// the normal and keeps its length, where LAMMPS projects it: both agree as the step shrinks.
+/// force grows. This creates energy, unlike [`Keeps::Lesser`]. The displacement turns with the
+/// normal and keeps its length, while LAMMPS projects it: both agree as the step shrinks.
 #[derive(Clone, Copy, Debug)]
 pub struct SilbertFrictionLaw {
     coefficient: f64,

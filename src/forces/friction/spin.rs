@@ -5,8 +5,8 @@ use crate::document::quantities::fraction;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// The thesis's rule (Rice, 2012, eqs. 10 to 14): from spins alone, an impulse per step.
-/// Depends on the time step, knows no sliding, does not conserve angular momentum.
+/// The thesis's rule (Rice, 2012, eqs. 10 to 14): from spins alone, an impulse per step. Depends on
+/// the time step, ignores sliding, does not conserve angular momentum.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Spin {
@@ -20,7 +20,7 @@ impl Spin {
     pub(crate) const NAME: &'static str = "spin";
 }
 
-/// Its stability does not depend on the step: see the range of its coefficient.
+/// Its stability does not depend on the step; the range of its coefficient ensures it.
 impl<C> FrictionKeys<C> for Spin {
     type Law = SpinLaw;
 
@@ -33,8 +33,8 @@ impl<C> FrictionKeys<C> for Spin {
 /// difference of the surface velocities due to spin, dw the sum of the spins perpendicular to the
 /// normal, and m the smaller mass (all masses are equal in the thesis), without an added mass.
 ///
-/// An impulse per step: the law depends on the time step, knows no sliding and does not conserve
-/// angular momentum. It is kept because it is what the thesis ran.
+/// An impulse per step: the law depends on the time step, ignores sliding and does not conserve
+/// angular momentum. It is kept because the thesis used it.
 #[derive(Clone, Copy, Debug)]
 pub struct SpinLaw {
     /// mu / dt (1/s).

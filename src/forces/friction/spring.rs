@@ -1,6 +1,6 @@
 //! The loaded spring of a contact that sticks.
 
-use super::{Change, Touch, Traction};
+use super::{ForceChange, Touch, Traction};
 use crate::particles::math::inverse_square_root;
 use crate::particles::vector::Vector;
 use serde::{Deserialize, Serialize};
@@ -12,12 +12,12 @@ pub struct Spring {
     pub(crate) force: Vector,
 }
 
-/// The least product of two squared forces (N4) that counts: that of two forces of 1e-70 N.
+/// The least product of two squared forces (N4) that counts, for two forces of 1e-70 N.
 const LEAST_PRODUCT: f64 = 1e-280;
 
 impl Spring {
     /// The spring, of a stiffness k (N/m), loaded by the sliding since the last evaluation, df = -k
-    /// du, with the force `drag` (N) of a dashpot beside it, before both are capped at `limit` (N).
+    /// du, with the force `drag` (N) of a parallel dashpot, before both are capped at `limit` (N).
     #[inline(always)]
     pub(super) fn loaded(
         &self,
@@ -46,30 +46,30 @@ impl Spring {
     /// length.
     #[inline(always)]
     pub fn turned(&self, normal: Vector) -> Self {
-        self.turned_to(normal, Change::NONE)
+        self.turned_to(normal, ForceChange::NONE)
     }
 
     /// The same with a change of its force.
     #[inline(always)]
-    pub(crate) fn turned_to(&self, normal: Vector, change: Change) -> Self {
+    pub(crate) fn turned_to(&self, normal: Vector, change: ForceChange) -> Self {
         self.lengthened(self.force.perpendicular_to(normal), change)
     }
 
-    /// The same where it is known how much the normal changed since the spring was in its plane,
-    /// to first order.
+    /// The same, if the change of the normal since the spring was in its plane is known to first
+    /// order.
     ///
     /// The smallest rotation from a normal n' to n takes a force f across n' to f - (f n) (n' + n)
-    /// / (1 + n' n). A projection has n in place of (n' + n) / 2: each step then misses an angle
-    /// of second order, and the motion is of first order.
+    /// / (1 + n' n). A projection uses n instead of (n' + n) / 2: each step then has an angular
+    /// error of second order, and the motion is of first order.
     #[inline(always)]
-    pub(crate) fn turned_by(&self, normal: Vector, turn: Vector, change: Change) -> Self {
+    pub(crate) fn turned_by(&self, normal: Vector, turn: Vector, change: ForceChange) -> Self {
         let half = turn.perpendicular_to(normal) * (0.5 * self.force.dot(normal));
         self.lengthened(self.force.perpendicular_to(normal) + half, change)
     }
 
-    /// The spring in the direction of `turned`, with its length but for the change.
+    /// The spring in the direction of `turned`, with its length times the change.
     #[inline(always)]
-    fn lengthened(&self, turned: Vector, change: Change) -> Self {
+    fn lengthened(&self, turned: Vector, change: ForceChange) -> Self {
         let (before, after) = (self.force.norm_squared(), turned.norm_squared());
         // One root for |before| / |after| and the change. Forces too small for it are set to zero.
         let product = before * after * (change.from * change.from);
@@ -85,9 +85,9 @@ impl Spring {
 pub struct LoadedSpring {
     /// Its force (N).
     pub(crate) elastic: Vector,
-    /// The force that a dashpot beside it takes from that (N).
+    /// The force of the parallel dashpot (N).
     pub(crate) drag: Vector,
-    /// The most that friction carries of both (N).
+    /// The limit of friction on both (N).
     pub(crate) limit: f64,
 }
 
@@ -106,11 +106,11 @@ impl LoadedSpring {
 
     /// The same spring for schemes of second order. `before` is it before it was loaded.
     ///
-    /// While a contact slides, its force turns toward the direction of sliding, by the angle that
-    /// the part of the loading across it makes up. The [cap](Self::capped) shortens the sum of
-    /// force and loading, which gets this angle to first order in the step. Here the force is
-    /// mirrored at the sum of force and half the loading: for a constant limit that is of second
-    /// order. For a limit that changes, the loading counts by the mean of old and new limit.
+    /// While a contact slides, its force turns toward the direction of sliding. The
+    /// [cap](Self::capped) shortens the sum of force and loading, which gives the angle to first
+    /// order in the step. Here the force is mirrored at the sum of force and half the loading,
+    /// which is of second order for a constant limit. If the limit changes, the loading is scaled
+    /// by the mean of the old and new limit.
     #[inline(always)]
     pub(crate) fn turned_while_sliding(&self, before: Spring) -> Self {
         let (start, limit_squared) = (before.force - self.drag, self.limit * self.limit);
@@ -121,7 +121,7 @@ impl LoadedSpring {
         let middle = start + loading * (0.5 * share);
         let middle_squared = middle.norm_squared();
         let mirrored = middle * (2.0 * start.dot(middle) / middle_squared) - start;
-        // Where it slid before, the mirrored force is about as long as the limit. It must be longer
+        // If it slid before, the mirrored force is about as long as the limit. It must be longer
         // to be capped.
         let slides = self.squared() > limit_squared;
         let slid = length_squared > 0.25 * limit_squared;
@@ -168,8 +168,8 @@ fn select(so: bool, first: Vector, second: Vector) -> Vector {
 mod tests {
     use super::*;
 
-    /// The force of a spring that slides for a second, in steps: the sliding turns through half a
-    /// circle, and the limit doubles.
+    /// The force of a spring that slides for a second, in steps, while the sliding turns through
+    /// half a circle and the limit doubles.
     fn slide(steps: u32, second_order: bool) -> Vector {
         let dt = 1.0 / f64::from(steps);
         let mut spring = Spring {
@@ -218,7 +218,7 @@ mod tests {
             for step in 1..=steps {
                 let now = normal(step);
                 spring = match second_order {
-                    true => spring.turned_by(now, now - normal(step - 1), Change::NONE),
+                    true => spring.turned_by(now, now - normal(step - 1), ForceChange::NONE),
                     false => spring.turned(now),
                 };
             }

@@ -4,7 +4,7 @@ use super::{Observer, find_distances};
 use crate::simulation::FrameView;
 use serde::{Deserialize, Serialize};
 
-/// What the count of rising spheres needs of the frame before.
+/// Data of the previous frame for the count of rising spheres.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct Previous {
     height: Vec<f64>,
@@ -21,14 +21,14 @@ pub(super) struct Rising<'a> {
     distance: &'a mut Vec<f64>,
     previous: &'a mut Previous,
     is_first_frame: bool,
-    /// How far all spheres rose, in the mean (m).
+    /// Mean rise of all spheres (m).
     mean: f64,
     /// Spheres so far.
     seen: usize,
 }
 
 impl<'a> Rising<'a> {
-    /// For a frame of `count` spheres with that mean height (m); none if nothing is counted.
+    /// For a frame of `count` spheres with this mean height (m); `None` if nothing is counted.
     pub(super) fn new(observer: &'a mut Observer, count: usize, height_mean: f64) -> Option<Self> {
         let cells = observer.rises.len() * observer.distances.len();
         if cells == 0 {

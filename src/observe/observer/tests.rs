@@ -1,4 +1,4 @@
-//! The observer against the definitions of what it measures.
+//! The observer compared with the definitions of its observables.
 
 use super::*;
 use crate::observe::Flow;
@@ -20,9 +20,9 @@ fn scene() -> Scene {
     .unwrap()
 }
 
-/// Spheres that own what a [`FrameView`] borrows.
+/// Owned data for a [`FrameView`].
 #[derive(Clone, Debug, Default)]
-struct Spheres {
+struct FrameSpheres {
     position: [Vec<f64>; 3],
     velocity: [Vec<f64>; 3],
     spin: [Vec<f64>; 3],
@@ -31,7 +31,7 @@ struct Spheres {
     inertia: Vec<f64>,
 }
 
-impl Spheres {
+impl FrameSpheres {
     /// Spheres of 4 mm and 1 g at rest.
     fn at(centres: &[[f64; 3]]) -> Self {
         let count = centres.len();
@@ -67,7 +67,7 @@ impl Spheres {
     }
 }
 
-fn observe(scene: &Scene, frames: &[Spheres]) -> Observations {
+fn observe(scene: &Scene, frames: &[FrameSpheres]) -> Observations {
     let mut observer = Observer::new(scene, &frames[0].radius);
     for (index, frame) in frames.iter().enumerate() {
         observer.observe(index as f64 * scene.time.frame_interval, &frame.view());
@@ -77,7 +77,7 @@ fn observe(scene: &Scene, frames: &[Spheres]) -> Observations {
 
 #[test]
 fn the_mass_that_is_in_is_that_of_the_spheres_of_the_frame() {
-    let mut spheres = Spheres::at(&[[0.0; 3], [0.1, 0.0, 0.0], [0.2, 0.0, 0.0]]);
+    let mut spheres = FrameSpheres::at(&[[0.0; 3], [0.1, 0.0, 0.0], [0.2, 0.0, 0.0]]);
     spheres.mass = vec![0.001, 0.002, 0.004];
     let flow = Flow {
         spheres: 5,
@@ -98,7 +98,7 @@ fn the_mass_that_is_in_is_that_of_the_spheres_of_the_frame() {
     let observations = observer.finish();
     assert!(close(observations.mass_inside[0], 0.007));
     assert_eq!(observations.coordination[0], 2.0);
-    // Without a flow there is nothing to come or go.
+    // Without a flow no sphere comes or goes.
     assert!(observe(&scene, &[spheres]).mass_inside.is_empty());
 }
 
@@ -109,7 +109,7 @@ fn close(measured: f32, expected: f64) -> bool {
 #[test]
 fn rigid_rotation_has_its_rate_and_no_fluctuation() {
     let omega = 7.0;
-    let mut spheres = Spheres::at(&[
+    let mut spheres = FrameSpheres::at(&[
         [0.01, 0.02, 0.0],
         [-0.03, 0.01, 0.1],
         [0.005, -0.04, -0.1],
@@ -129,7 +129,7 @@ fn rigid_rotation_has_its_rate_and_no_fluctuation() {
 
 #[test]
 fn spheres_on_the_axis_do_not_rotate_about_it() {
-    let mut spheres = Spheres::at(&[[0.0, 0.0, 0.1]]);
+    let mut spheres = FrameSpheres::at(&[[0.0, 0.0, 0.1]]);
     spheres.velocity[0][0] = 2.0;
     let observations = observe(&scene(), &[spheres]);
     assert_eq!(observations.rotation[0], 0.0);
@@ -139,7 +139,7 @@ fn spheres_on_the_axis_do_not_rotate_about_it() {
 #[test]
 fn bins_hold_their_outer_edge_and_the_last_what_is_beyond() {
     // Eight bins of 0.0075 m, by R / 2r = 7.5.
-    let spheres = Spheres::at(&[
+    let spheres = FrameSpheres::at(&[
         [0.0, 0.0, 1.0],
         [0.0, 0.0075, 2.0],
         [0.0075001, 0.0, 3.0],
@@ -159,7 +159,7 @@ fn bins_hold_their_outer_edge_and_the_last_what_is_beyond() {
 #[test]
 fn the_number_of_bins_can_be_set_and_is_never_none_in_a_tank() {
     let mut scene = scene();
-    let spheres = Spheres::at(&[[0.0; 3]]);
+    let spheres = FrameSpheres::at(&[[0.0; 3]]);
     scene.output.profile_bins = Some(3);
     assert_eq!(
         observe(&scene, std::slice::from_ref(&spheres))
@@ -176,8 +176,8 @@ fn the_number_of_bins_can_be_set_and_is_never_none_in_a_tank() {
 #[test]
 fn rising_spheres_are_judged_where_they_were() {
     // Rises above the mean of 12, 0 and -12 radii per second.
-    let before = Spheres::at(&[[0.0449, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]]);
-    let mut after = Spheres::at(&[[0.0599, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]]);
+    let before = FrameSpheres::at(&[[0.0449, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]]);
+    let mut after = FrameSpheres::at(&[[0.0599, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]]);
     after.position[2] = [12.0, 0.0, -12.0]
         .map(|speed| 0.01 + speed * 0.004 * 1e-3)
         .to_vec();
@@ -204,11 +204,11 @@ fn without_a_tank_only_what_needs_its_radius_is_empty() {
     scene.tank = None;
     scene.dem.effects.gravity = None;
     scene.dem.effects.swirl = None;
-    let observations = observe(&scene, &[Spheres::at(&[[0.03, 0.04, 0.5]])]);
+    let observations = observe(&scene, &[FrameSpheres::at(&[[0.03, 0.04, 0.5]])]);
     assert_eq!(observations.profile.dim(), (1, 0));
     assert_eq!(observations.rising.dim(), (1, 0, 3));
     assert_eq!(observations.gravitational[0], 0.0);
-    // Nothing refers to an axis that the scene does not have, nor to air.
+    // No observable refers to an axis or to air, which the scene does not have.
     for absent in [
         &observations.hole_radius,
         &observations.rotation,
@@ -220,7 +220,7 @@ fn without_a_tank_only_what_needs_its_radius_is_empty() {
 }
 
 /// All observables of `now`, by their definitions.
-fn check_by_definition(scene: &Scene, then: &Spheres, now: &Spheres) {
+fn check_by_definition(scene: &Scene, then: &FrameSpheres, now: &FrameSpheres) {
     let observations = observe(scene, &[then.clone(), now.clone()]);
     let n = now.radius.len();
     let count = n as f64;
@@ -316,12 +316,12 @@ prop_compose! {
         radius in prop::collection::vec(0.002..0.006, count),
         mass in prop::collection::vec(0.001..0.002, count),
         inertia in prop::collection::vec(1e-9..2e-9, count),
-    ) -> Spheres {
+    ) -> FrameSpheres {
         let columns = |rows: &[[f64; 3]]| {
             [0, 1, 2].map(|axis| rows.iter().map(|row| row[axis]).collect::<Vec<f64>>())
         };
         let positions: Vec<[f64; 3]> = positions.into_iter().map(<[f64; 3]>::from).collect();
-        Spheres {
+        FrameSpheres {
             position: columns(&positions),
             velocity: columns(&velocities),
             spin: columns(&spins),

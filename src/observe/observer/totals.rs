@@ -3,7 +3,7 @@
 use crate::observe::reduce::{Sum, largest, least};
 use crate::simulation::{Flow, FrameView, Ledger};
 
-/// What is summed up over all spheres of a frame.
+/// Sums over all spheres of a frame.
 #[derive(Debug)]
 pub(super) struct Totals {
     pub(super) count: usize,
@@ -12,14 +12,14 @@ pub(super) struct Totals {
     pub(super) rotational: Sum,
     pub(super) gravitational: Sum,
     pub(super) speed: Sum,
-    /// Of vertical velocities (m/s).
+    /// Vertical velocities (m/s).
     pub(super) rise: Sum,
     /// About the axis (kg m2/s), and the moment of inertia of the centres (kg m2).
     pub(super) momentum: Sum,
     pub(super) inertia: Sum,
     pub(super) distance: Sum,
     pub(super) height: Sum,
-    /// The least distance from the axis, and the largest height (m); not a number of no spheres.
+    /// The least distance from the axis, and the largest height (m); NaN without spheres.
     pub(super) nearest: f64,
     pub(super) highest: f64,
     pub(super) elastic_energy: f64,
@@ -85,7 +85,8 @@ impl Totals {
         self.flow = block.flow;
     }
 
-    /// Adds what refers to the axis, from which the spheres of a block are that far (m).
+    /// Adds sums that refer to the axis. `distance` holds the distances of a block's spheres from
+    /// it (m).
     pub(super) fn add_about_axis(&mut self, block: &FrameView<'_>, distance: &[f64]) {
         let ([x, y, _], [vx, vy, _]) = (block.position, block.velocity);
         self.momentum

@@ -2,7 +2,7 @@
 
 use super::{Drainage, each};
 use crate::classify::{DRAINAGE, Family};
-use crate::measure::{CellGrid, Centres, Walls, local_packing_fraction, voronoi_cells};
+use crate::measure::{CellBounds, CellGrid, Centres, local_packing_fraction, voronoi_cells};
 use crate::observe::Snapshot;
 use crate::particles::vector::Vector;
 use crate::plot::canvas::SNAP;
@@ -85,7 +85,7 @@ impl Map {
             drainage.filled_box.half_depth,
             drainage.filled_box.floor,
         ];
-        let walls = Walls {
+        let walls = CellBounds {
             low: [-width, -depth, floor],
             high: [width, depth, floor + drainage.filled_box.filled + diameter],
             farthest: FARTHEST * diameter,

@@ -3,14 +3,14 @@
 use crate::refine::cholesky::{Cholesky, LANES, Lanes, Matrix, squared_lengths};
 use crate::refine::normal;
 
-/// Most sweeps over the runs.
+/// Largest number of sweeps over the runs.
 const MOST_SWEEPS: usize = 60;
 
-/// Share of a new site that replaces the old one: all sites change at once, which oscillates
-/// without damping.
+/// Damping: share of a new site that replaces the old one. Without it, changing all sites at once
+/// oscillates.
 const DAMPING: f64 = 0.8;
 
-/// Gaussian factors that stand for the likelihoods of the runs.
+/// Gaussian factors that approximate the likelihoods of the runs.
 #[derive(Clone, Debug)]
 pub(super) struct Sites {
     /// Inverse variance of each.
@@ -20,7 +20,7 @@ pub(super) struct Sites {
 }
 
 impl Sites {
-    /// Sites that say next to nothing.
+    /// Nearly uninformative sites.
     pub(super) fn vague(runs: usize) -> Self {
         Self {
             precision: vec![1e-6; runs],
@@ -47,7 +47,7 @@ impl Posterior {
     /// Posterior for runs with this prior covariance; `signs` are 1 for the label and -1 for the
     /// others. Rasmussen and Williams, Gaussian Processes for Machine Learning (2006), algorithms
     /// 3.5 and 3.6, with all sites changed at once. `start` are the sites to begin with. Sweeps end
-    /// when no mean changes by more than `tolerance` spreads, and no variance by more than that
+    /// when no mean changes by more than `tolerance` spreads, and no variance by more than this
     /// share.
     pub(super) fn new(covariance: &Matrix, signs: &[f64], start: Sites, tolerance: f64) -> Self {
         let mut sites = start;
@@ -94,7 +94,7 @@ impl Posterior {
     }
 }
 
-/// The posterior of these sites, and the sites to go on with unless they have converged.
+/// The posterior of these sites, and the next sites unless they have converged.
 fn sweep_once(
     covariance: &Matrix,
     signs: &[f64],

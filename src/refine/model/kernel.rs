@@ -3,7 +3,7 @@
 use crate::refine::cholesky::Matrix;
 use crate::refine::observations::Training;
 
-/// The Matérn covariance of smoothness 5/2 with a length for each axis: Rasmussen and Williams,
+/// The Matérn covariance of smoothness 5/2 with one length per axis: Rasmussen and Williams,
 /// Gaussian Processes for Machine Learning (2006), equation 4.17.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Kernel {
@@ -40,7 +40,7 @@ impl Kernel {
     }
 }
 
-/// The values that a search for the best kernel tries: an amplitude and a length for each axis.
+/// A trial of the search for the best kernel: an amplitude and one length per axis.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Setting {
     amplitude: usize,
@@ -87,8 +87,8 @@ impl Setting {
     }
 }
 
-/// The setting with the largest evidence that steps from `start` reach, one number at a time. The
-/// evidence may remember earlier calls, but must depend on the setting and the calls alone.
+/// The setting with the largest evidence that can be reached in steps from `start`, one number at a
+/// time. The evidence may depend on the setting and on earlier calls only.
 pub(super) fn ascend(start: Setting, mut evidence: impl FnMut(&Setting) -> f64) -> Setting {
     let numbers = start.lengths.len() + 1;
     let mut known: Vec<(Setting, f64)> = Vec::new();

@@ -11,17 +11,17 @@ use crate::refine::observations::Training;
 /// probability Φ(f), independently of other labels, but exactly one label is shown. So the
 /// probability of a label is proportional to its odds Φ(f) / (1 - Φ(f)).
 ///
-/// - Posteriors are those of expectation propagation: Rasmussen and Williams, Gaussian Processes
-///   for Machine Learning (2006), section 3.6.
-/// - All labels share the amplitude and the lengths of the covariance, those of a small grid with
-///   the largest sum of the approximate marginal likelihoods (section 5.5.2).
-/// - The latent mean over spread is divided by a temperature, with which the other runs predict
-///   each run best (leave-one-out cross-validation, section 5.4.2): the largest one within a
-///   standard deviation of the best. Above 1 it makes the bands wider, below 1 narrower.
+/// - Posteriors follow from expectation propagation: Rasmussen and Williams, Gaussian Processes for
+///   Machine Learning (2006), section 3.6.
+/// - All labels share the amplitude and the lengths of the covariance, chosen on a small grid for
+///   the largest sum of the approximate log marginal likelihoods (section 5.5.2).
+/// - The latent mean over spread is divided by a temperature, found by leave-one-out
+///   cross-validation (section 5.4.2): the largest one within a standard deviation of the best.
+///   Above 1 it makes the bands wider, below 1 narrower.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Propagation;
 
-/// Change at which sweeps end: while kernels are compared, and for the kernel that is taken.
+/// Change at which sweeps end: while kernels are compared, and for the chosen kernel.
 const TOLERANCES: [f64; 2] = [0.1, 1e-3];
 
 /// Temperatures that are tried, ascending.
@@ -75,8 +75,8 @@ impl Model for Propagation {
     }
 }
 
-/// The largest temperature within one standard deviation of that with which the other runs give
-/// the labels of the runs the largest probability.
+/// The largest temperature within one standard deviation of the one that maximises the
+/// leave-one-out probability of the runs' labels.
 fn temperature(runs: &Training, labels: &[Posterior]) -> f64 {
     let fits = TEMPERATURES.map(|temperature| {
         let logs = (0..runs.runs()).map(|run| {

@@ -9,7 +9,7 @@ use crate::refine::observations::Training;
 /// Label regression: 1 where a run has the label and -1 elsewhere is taken as a Gaussian process
 /// with Gaussian noise. The probability of a label is proportional to the odds of a value above 0.
 /// Rasmussen and Williams, Gaussian Processes for Machine Learning (2006), sections 2.2 and 6.5.
-/// All labels share one factorisation: it is the fastest of the models with a kernel.
+/// All labels share one factorisation, which makes this model faster than expectation propagation.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Regression;
 
@@ -21,7 +21,7 @@ struct Regressed {
     noise: f64,
 }
 
-/// Variances of the noise over that of the latent function.
+/// Variances of the noise over the variance of the latent function.
 const NOISES: [f64; 4] = [0.001, 0.01, 0.05, 0.2];
 
 impl Model for Regression {

@@ -30,7 +30,7 @@ fn test() -> SteadyTest {
     SteadyTest::new(&scene, &[0.004], &[1e-3]).unwrap()
 }
 
-/// A run of which everything stands still but the energy (J), by time (s).
+/// A run in which only the energy (J) changes with time (s).
 fn observed(energy: impl Fn(f64) -> f64) -> Observations {
     let frames = FRAMES as usize + 1;
     let time: Vec<f64> = (0..frames).map(|frame| frame as f64 * INTERVAL).collect();
@@ -44,7 +44,7 @@ fn observed(energy: impl Fn(f64) -> f64) -> Observations {
     }
 }
 
-/// The end of a run (s), and since when it is steady (s).
+/// The end of a run (s), and the start of its steady state (s).
 fn end(observations: &Observations) -> Option<(f64, f64)> {
     let test = test();
     (1..=FRAMES).find_map(|frame| {
@@ -78,7 +78,7 @@ fn a_run_at_rest_ends_after_one_window() {
     assert_eq!(test().since(200, &Observations::default()), None);
 }
 
-/// Whatever the time that a relaxation takes, little of it is left at the end.
+/// For any relaxation time, little of the relaxation is left at the end.
 #[test]
 fn a_relaxation_is_over_at_the_end_of_a_run() {
     for time in [0.3, 1.0, 3.0, 10.0] {
@@ -94,7 +94,7 @@ fn a_relaxation_is_over_at_the_end_of_a_run() {
     assert_eq!(end(&observed(|at| 1.0 - libm::exp(-at / 30.0))), None);
 }
 
-/// The same in noise of a tenth of the energy: how often more than a twentieth is left.
+/// The same with noise of a tenth of the energy: how often more than a twentieth is left.
 #[test]
 fn noise_hides_no_relaxation() {
     let time = 3.0;
@@ -115,8 +115,8 @@ fn noise_hides_no_relaxation() {
     assert!(ends[50] < DURATION);
 }
 
-/// Every check is one more chance to end: of runs that change by just the tolerance in their last
-/// third, whenever they are looked at, most do in a hundred checks. A little more keeps them going.
+/// Every check is one more chance to end: most runs that always change by exactly the tolerance in
+/// their last third end within a hundred checks. With slightly larger changes they continue.
 #[test]
 fn many_checks_end_few_runs_that_go_on_changing() {
     for (change, most) in [(0.07, 10), (0.1, 0)] {
@@ -132,7 +132,7 @@ fn many_checks_end_few_runs_that_go_on_changing() {
     }
 }
 
-/// How long a steady run takes to be found steady, by its noise.
+/// How long it takes to find a steady run steady, depending on its noise.
 #[test]
 fn a_steady_run_ends_when_its_length_tells() {
     for (scatter, correlation, latest) in [(0.01, 0.02, 3.0), (0.05, 0.05, 20.0), (0.1, 0.1, 60.0)]
@@ -150,7 +150,7 @@ fn a_steady_run_ends_when_its_length_tells() {
     }
 }
 
-/// A jump in any of the three observables keeps a run going until it lies in the past.
+/// A jump in any of the three observables keeps a run going until the jump is old enough.
 #[test]
 fn all_three_observables_must_be_still() {
     let frames = FRAMES as usize + 1;

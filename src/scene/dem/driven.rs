@@ -5,17 +5,17 @@ use crate::particles::vector::Vector;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A sphere that moves along a prescribed path, whatever acts on it:
-/// x(t) = x(0) + v t + A (sin(w t + p) - sin p). It keeps the spin of its start. Others feel it as
-/// any sphere; it passes walls, fixed spheres and other driven ones. It is never removed, may leave
-/// the bounds of `guards`, and does not count when spheres are to be at rest. One that a feed lets
-/// in moves along its path from then on.
+/// A sphere that moves along a prescribed path, independent of forces: x(t) = x(0) + v t + A (sin(w
+/// t + p) - sin p). It keeps its initial spin. Other spheres collide with it as usual; it passes
+/// through walls, fixed spheres and other driven ones. It is never removed, may leave the bounds of
+/// `guards`, and is ignored when spheres are checked to be at rest. A driven sphere from a feed
+/// follows its path from its entry on.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Driven {
-    /// Which sphere of the start, from 0; of a feed, in the order in which they come in.
+    /// Index of the sphere in the start, from 0; for a feed, in the order of entry.
     pub sphere: usize,
-    /// Constant velocity v (m/s); the velocity of its start does not count.
+    /// Constant velocity v (m/s); its initial velocity is ignored.
     #[serde(default)]
     #[schemars(transform = unit("m/s"))]
     pub velocity: [f64; 3],
@@ -41,14 +41,14 @@ impl Driven {
         Vector::from(self.velocity) + Vector::from(self.amplitude) * swing
     }
 
-    /// How far from its start it may come within a time (s), at most (m).
+    /// The largest distance (m) from its start within a time (s).
     pub(crate) fn farthest(&self, time: f64) -> f64 {
         let swings = self.angular_frequency != 0.0;
         let swing = if swings { 2.0 } else { 0.0 } * Vector::from(self.amplitude).norm();
         Vector::from(self.velocity).norm() * time + swing
     }
 
-    /// The fastest that it may be (m/s).
+    /// Its largest speed (m/s).
     pub(crate) fn fastest(&self) -> f64 {
         let swing = Vector::from(self.amplitude).norm() * self.angular_frequency.abs();
         Vector::from(self.velocity).norm() + swing

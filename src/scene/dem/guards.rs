@@ -17,8 +17,8 @@ pub struct Guards {
             .above(0.0)
     )]
     pub displacement: f64,
-    /// Largest |x| and |y| of a centre (m). Default: twice the tank's radius, or the larger of its
-    /// width and depth, if walls are all around.
+    /// Largest |x| and |y| of a centre (m). Default, if there are walls all around: twice the
+    /// tank's radius, or the larger of its width and depth.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(transform = quantity("x_{max}", "m", "largest |x| and |y|").above(0.0))]
     pub horizontal: Option<f64>,

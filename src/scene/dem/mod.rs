@@ -22,8 +22,8 @@ use crate::forces::effects::Effects;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What a scene says to the discrete element model alone. By default spheres move freely, and
-/// nothing acts on them.
+/// The part of a scene that only the discrete element model uses. By default spheres move freely,
+/// without forces.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct DemScene {
     /// Normal contact law, between spheres and with walls alike. Absent: spheres pass through
@@ -42,15 +42,16 @@ pub struct DemScene {
     /// The silo's door, which opens once. Absent: it stays closed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub door: Option<Door>,
-    /// When the spheres count as at rest. With it a run ends as soon as they are, all are in, and
-    /// no door is left to open. Absent: a run ends at its duration, or when all spheres have left.
+    /// When the spheres count as at rest. A run then ends as soon as all spheres are in and at rest
+    /// and no door is left to open. Absent: a run ends at its duration, or when all spheres have
+    /// left.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rest: Option<Rest>,
     /// Where spheres leave the simulation. Absent: nowhere.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub outlet: Option<Outlet>,
-    /// Spheres that move along prescribed paths. Absent: none. The energy balance does not know
-    /// what drives them.
+    /// Spheres that move along prescribed paths. Absent: none. The energy balance does not include
+    /// the work that drives them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub driven: Vec<Driven>,
     /// The effects on single spheres.

@@ -10,8 +10,8 @@ use std::path::PathBuf;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Geometry {
-    /// From a file (Remmers, 2009): the numbers of wall and door spheres in its first line, then
-    /// x, height and radius of each, the walls first.
+    /// From a file (Remmers, 2009): the numbers of wall and door spheres in its first line, then x,
+    /// height and radius of each sphere, the walls first.
     File {
         /// Path of the file, relative to the scene file.
         path: PathBuf,
@@ -20,7 +20,7 @@ pub enum Geometry {
     },
     /// Two straight walls, two slopes below them, and a door across the opening between these.
     Hopper(Hopper),
-    /// Every fixed sphere listed; what a file is resolved to.
+    /// A list of all fixed spheres; files are converted to this form.
     List {
         /// Spheres that never move.
         walls: Vec<FixedSphere>,
@@ -104,11 +104,11 @@ pub struct FixedSpheres {
     pub door: Vec<FixedSphere>,
 }
 
-/// Most fixed spheres of a hopper.
+/// Largest number of fixed spheres of a hopper.
 pub(crate) const MOST_HOPPER_SPHERES: f64 = 10_000.0;
 
 impl Geometry {
-    /// All fixed spheres; none for a file that has not been read.
+    /// All fixed spheres; empty for a file that has not been read.
     pub fn spheres(&self) -> FixedSpheres {
         match self {
             Self::File { .. } => FixedSpheres::default(),
@@ -189,7 +189,7 @@ impl Hopper {
     /// Number of spacings between two points (x, z).
     fn steps(&self, from: [f64; 2], to: [f64; 2]) -> f64 {
         let length = libm::hypot(to[0] - from[0], to[1] - from[1]);
-        // A spacing that divides the length stays whole whatever the last digits say.
+        // A spacing that divides the length counts as whole despite rounding.
         libm::ceil(length / self.spacing - 1e-9).max(1.0)
     }
 }
@@ -199,16 +199,16 @@ impl Hopper {
 #[serde(deny_unknown_fields)]
 pub struct Rest {
     /// Kinetic energy of all grains together (J), translation and rotation, below which they may be
-    /// at rest. No single grain may have more than a hundredth of it, or of fewer than a hundred
-    /// grains more than its equal share. Spheres of `driven` do not count: a bed may be at rest
-    /// while they move.
+    /// at rest. In addition, no single grain may have more than a hundredth of it or, with fewer
+    /// than a hundred grains, more than its equal share. Driven spheres do not count: a bed may be
+    /// at rest while they move.
     #[schemars(
         transform = quantity("E_{rest}", "J", "kinetic energy of spheres at rest").above(0.0)
     )]
     pub kinetic_energy: f64,
-    /// Time for which they must stay below that (s). A grain at the top of its bounce is slow for
-    /// an instant, but not for long: g times this should be far above the speed of a grain with its
-    /// share of the energy.
+    /// Time for which they must stay below this energy (s). A grain at the top of its bounce is
+    /// slow for an instant only: g times this time should be far above the speed of a grain with
+    /// its share of the energy.
     #[serde(default = "default_hold")]
     #[schemars(
         transform = quantity("t_{rest}", "s", "time for which spheres must be slow").above(0.0)

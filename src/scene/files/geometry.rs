@@ -7,7 +7,7 @@ use crate::document::text;
 use crate::scene::{FixedSphere, FixedSpheres, LengthUnit};
 use std::path::Path;
 
-/// Most fixed spheres that a file may announce.
+/// Largest number of fixed spheres in a file.
 const MOST_SPHERES: u64 = 10_000_000;
 
 /// Reads the fixed spheres of a silo, whose lengths are in `unit`. Blank lines and lines that
@@ -25,7 +25,7 @@ pub(super) fn read_geometry(path: &Path, unit: LengthUnit) -> Result<FixedSphere
         return Err(wrong(1, reason.to_owned()));
     };
     let [walls, door] = counts(header).map_err(|reason| wrong(first, reason))?;
-    // What the file announces is not believed before it is there.
+    // No memory is reserved for what the file announces.
     let mut spheres = Vec::new();
     let mut last = first;
     for (line, text) in lines {
@@ -63,7 +63,7 @@ fn counts(header: &str) -> Result<[u64; 2], String> {
     let count = |field: &str| match field.parse::<u64>() {
         Ok(count) if count <= MOST_SPHERES => Ok(count),
         Ok(count) => Err(format!(
-            "{count} spheres are too many; {MOST_SPHERES} are the most"
+            "{count} spheres are too many; the maximum is {MOST_SPHERES}"
         )),
         Err(_) => Err(format!("`{field}` is not a whole number; {usage}")),
     };
@@ -83,7 +83,7 @@ fn sphere(line: &str, unit: LengthUnit) -> Result<FixedSphere, String> {
         let value = text::number(field)? / unit.per_metre();
         if value.abs() > largest {
             return Err(format!(
-                "`{field}` is {value:e} m; {largest:e} m is the most"
+                "`{field}` is {value:e} m; the maximum is {largest:e} m"
             ));
         }
         Ok(value)
@@ -95,7 +95,7 @@ fn sphere(line: &str, unit: LengthUnit) -> Result<FixedSphere, String> {
             radius: value,
         }),
         value if value > 0.0 => Err(format!(
-            "a radius of {value:e} m is too small; {least:e} m is the least"
+            "a radius of {value:e} m is too small; the minimum is {least:e} m"
         )),
         _ => Err(format!("a radius must be above zero, but is `{radius}`")),
     }
@@ -154,7 +154,7 @@ mod tests {
             ),
             (
                 "99999999999 1\n",
-                "silo.dat:1: 99999999999 spheres are too many; 10000000 are the most",
+                "silo.dat:1: 99999999999 spheres are too many; the maximum is 10000000",
             ),
             (
                 "2 0\n0 0 1\n",

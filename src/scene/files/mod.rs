@@ -20,10 +20,10 @@ enum FileError {
     Read {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// The system's error.
         source: io::Error,
     },
-    /// A line says something it must not.
+    /// A line is wrong.
     #[error("{}:{line}: {reason}", path.display())]
     Line {
         /// The file.
@@ -35,8 +35,7 @@ enum FileError {
     },
 }
 
-/// The same problem where the spheres of the start come from a file: one of a sphere names its
-/// line.
+/// The same problem for spheres read from a start file: a problem of a sphere then names its line.
 pub(crate) fn in_start_file(path: &Path, problem: Problem) -> Problem {
     let index = problem.path.strip_prefix(LIST_KEY);
     let index = index.and_then(|it| it.strip_prefix('[')?.split(']').next()?.parse().ok());
@@ -75,8 +74,7 @@ impl Scene {
             || matches!(self.start, Start::File { .. })
     }
 
-    /// Puts the contents of the files that the scene names, relative to `folder`, in the place of
-    /// their names.
+    /// Replaces the names of files, relative to `folder`, by their contents.
     pub(crate) fn read_files(&mut self, folder: &Path, problems: &mut Vec<Problem>) {
         let mut refuse = |key: &str, error: FileError| {
             problems.push(Problem::new(key, error.to_string()));

@@ -5,7 +5,7 @@ use crate::document::text;
 use crate::scene::StartSphere;
 use std::path::Path;
 
-/// The columns a start file may have; the first three it must have.
+/// The columns that a start file may have; the first three are required.
 const COLUMNS: [&str; 10] = ["x", "y", "z", "vx", "vy", "vz", "wx", "wy", "wz", "radius"];
 const NEEDED: usize = 3;
 const RADIUS: usize = 9;
@@ -13,7 +13,7 @@ const RADIUS: usize = 9;
 /// Reads the spheres of a CSV file: columns `x`, `y`, `z` (m) and, if they are there, `vx`, `vy`,
 /// `vz` (m/s), `wx`, `wy`, `wz` (rad/s) and `radius` (m), in any order, named by the header line.
 ///
-/// A velocity or spin without a column is zero. An empty radius stands for the scene's. Blank
+/// A velocity or spin without a column is zero. An empty radius means the scene's radius. Blank
 /// lines and lines that start with `#` are skipped.
 ///
 /// # Errors
@@ -59,7 +59,7 @@ fn header(line: &str) -> Result<Vec<usize>, String> {
             .position(|&known| known == name)
             .ok_or_else(|| {
                 format!(
-                    "`{name}` is no column of a start file; the columns are {}",
+                    "`{name}` is not a column of a start file; the columns are {}",
                     COLUMNS.join(", ")
                 )
             })?;
@@ -159,8 +159,8 @@ mod tests {
             ("x,y,z,x\n", "start.csv:1: column `x` appears twice"),
             (
                 "x,y,z,mass\n",
-                "start.csv:1: `mass` is no column of a start file; \
-                 the columns are x, y, z, vx, vy, vz, wx, wy, wz, radius",
+                "start.csv:1: `mass` is not a column of a start file; the columns are x, y, z, vx, \
+                    vy, vz, wx, wy, wz, radius",
             ),
             (
                 "x,y,z\n0,0,0\n\n0,high,0\n",

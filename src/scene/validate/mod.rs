@@ -1,4 +1,4 @@
-//! What a scene must satisfy beyond the kinds of its values.
+//! What a scene must satisfy beyond the types of its values.
 
 mod driven;
 mod neighbours;
@@ -21,7 +21,7 @@ use crate::document::{Problem, any_of, number};
 const MOST_SPHERES: usize = 10_000_000;
 
 impl Scene {
-    /// What is wrong with the kinds of values, and numbers out of their ranges.
+    /// Values of the wrong type, and numbers out of range.
     pub(crate) fn problems_of_values(&self) -> Vec<Problem> {
         let mut problems = Vec::new();
         let Some((without_them, spheres)) = self.apart_from_list() else {
@@ -39,7 +39,7 @@ impl Scene {
     }
 
     /// Finds keys that do not go together. Numbers must be in their ranges. Radii and starts that
-    /// are still the names of files are not looked into.
+    /// are still file names are not checked.
     ///
     /// The engine checks two things later: whether the time step is stable, and whether a random
     /// start finds room.
@@ -92,8 +92,8 @@ impl Scene {
                 "add [friction], or remove [rolling]",
             ),
             Some(Friction::Spin(_)) => (
-                "[rolling] needs spheres that roll, but the spin friction knows no sliding, so \
-                 that spheres do not come to roll",
+                "[rolling] needs spheres that roll, but spin friction has no sliding, so that \
+                    spheres never start to roll",
                 "use another friction law, such as `law = \"coulomb\"`, or remove [rolling]",
             ),
             Some(_) => return,
@@ -105,7 +105,7 @@ impl Scene {
         let count = self.spheres.count;
         if count > MOST_SPHERES {
             let message = format!("{} spheres are too many", number(count as f64));
-            let help = format!("{MOST_SPHERES} are the most");
+            let help = format!("the maximum is {MOST_SPHERES}");
             problems.push(Problem::new("spheres.count", message).help(help));
         }
         match &self.spheres.radius {
@@ -149,7 +149,7 @@ impl Scene {
         })
     }
 
-    /// The mean radius of the spheres (m), with those that a list gives.
+    /// The mean radius of the spheres (m), including radii in the start list.
     pub fn mean_radius(&self) -> f64 {
         let mean = self.spheres.radius.mean();
         match &self.start {
@@ -197,7 +197,7 @@ pub(crate) fn plural(count: usize, one: &str, many: &str) -> String {
     format!("{count} {}", if count == 1 { one } else { many })
 }
 
-/// To six significant digits: a number to read, not one to type.
+/// A number to six significant digits, for messages.
 pub(crate) fn rounded(value: f64) -> String {
     number(format!("{value:.5e}").parse().unwrap_or(value))
 }

@@ -5,16 +5,15 @@ use crate::scene::{Geometry, Scene};
 
 impl Scene {
     /// The least side of a cell (m) with which all pairs that may touch are found in neighbouring
-    /// cells: the largest distance from which two spheres act on each other. That is the largest
-    /// sum of the radii of two that touch, or, with an updraught, the width of the column that a
-    /// sphere shields.
+    /// cells: the largest distance from which two spheres act on each other. This is the largest
+    /// sum of two radii or, with an updraught, the width of the column that a sphere shields.
     pub fn least_cell_length(&self) -> f64 {
         let largest = self.radius_range().1;
         let fixed = self.dem.geometry.as_ref().map(Geometry::spheres);
         let fixed = fixed
             .iter()
             .flat_map(|fixed| fixed.walls.iter().chain(&fixed.door));
-        // Two fixed ones do not act on each other.
+        // Two fixed spheres do not interact.
         largest + fixed.map(|sphere| sphere.radius).fold(largest, f64::max)
     }
 

@@ -5,10 +5,10 @@ use super::time::{MOST_FRAMES, multiple};
 use crate::document::{Problem, accepted, number};
 use crate::scene::Scene;
 
-/// Most numbers of an observable with several per frame: a gigabyte of them.
+/// Largest number of values of an observable with several per frame: one gigabyte.
 const MOST_NUMBERS: f64 = 2.5e8;
 
-/// Most numbers in the states of all spheres that a record holds: eight gigabytes of them.
+/// Largest number of values in the states of all spheres in a record: eight gigabytes.
 const MOST_IN_STATES: f64 = 1e9;
 
 /// Numbers in the state of a sphere: position, velocity, spin.
@@ -19,7 +19,7 @@ impl Scene {
         self.check_states(problems);
         let frames = self.time.duration / self.time.frame_interval;
         if frames > MOST_FRAMES {
-            // Refused whatever is observed of them.
+            // Refused elsewhere.
             return;
         }
         let most = libm::floor(MOST_NUMBERS / frames);
@@ -75,7 +75,7 @@ impl Scene {
         let fits = |interval: f64| states(interval) <= most.max(2.0);
         if interval > 0.0 && !fits(interval) {
             let frame = self.time.frame_interval;
-            // The first whole number of frames between snapshots with which they are few enough.
+            // The smallest number of frames between snapshots that fits.
             let apart = libm::floor(self.time.duration / (most.max(2.0) * frame)) + 1.0;
             let least = accepted(apart * frame, |it| fits(it) && multiple(it, frame));
             let help = match least {

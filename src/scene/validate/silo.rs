@@ -6,7 +6,7 @@ use crate::scene::{
     Friction, Geometry, Hopper, MOST_HOPPER_SPHERES, Scene, Shape, Start, Tank, may_hold,
 };
 
-/// Shortest `rest.hold` (s): the spheres are looked at twice in this time.
+/// Shortest `rest.hold` (s): the spheres are checked twice in this time.
 const LEAST_HOLD: f64 = 0.02;
 
 impl Scene {
@@ -60,7 +60,7 @@ impl Scene {
         ] {
             if is_there {
                 let help = format!("remove it, {shape}");
-                refuse(table.to_owned(), "this fluid is in space", &help);
+                refuse(table.to_owned(), "this fluid is three-dimensional", &help);
             }
         }
         if self.dem.effects.swirl.is_some() || self.dem.effects.updraught.is_some() {
@@ -71,7 +71,7 @@ impl Scene {
             };
             refuse(
                 path.to_owned(),
-                "this air moves in space",
+                "this air moves in three dimensions",
                 &format!("remove it, {shape}"),
             );
         }
@@ -120,7 +120,7 @@ impl Scene {
             problems.push(Problem::new("geometry", message).help(help));
         }
         if let Some(Friction::Spin(_)) = self.dem.friction {
-            let message = "the spin friction is made for the tank and knows no fixed spheres";
+            let message = "spin friction was made for the tank and does not support fixed spheres";
             problems.push(Problem::new("friction.law", message).help("use `law = \"coulomb\"`"));
         }
         if let Geometry::Hopper(hopper) = geometry {
@@ -148,7 +148,7 @@ impl Scene {
             problems.push(too_late("door.opens", opens, "the door would open", self));
         }
         if door.opens.is_none() && self.dem.rest.is_none() {
-            let message = "[door] opens when all is at rest, but nothing says when that is";
+            let message = "[door] opens when all spheres are at rest, but nothing defines rest";
             let help = "add [rest] with `kinetic_energy`, or a time `opens` to [door]";
             problems.push(Problem::new("door", message).help(help));
         }
@@ -161,7 +161,7 @@ impl Scene {
         }
         if rest.hold < LEAST_HOLD {
             let message = format!(
-                "`rest.hold` = {} s is no longer than the time between two looks at the spheres",
+                "`rest.hold` = {} s is no longer than the time between two checks of the spheres",
                 number(rest.hold)
             );
             let help = format!("use `hold = {}` or more", number(LEAST_HOLD));
@@ -196,7 +196,7 @@ impl Scene {
             .lowest_support()
             .is_some_and(|support| support <= outlet.height)
         {
-            refuse("all that holds spheres: they would leave before they are out");
+            refuse("everything that holds spheres: they would be removed too early");
         }
     }
 
@@ -215,7 +215,7 @@ impl Scene {
         }
     }
 
-    /// Effects that keep numbers per sphere do not go with spheres that come or go.
+    /// Effects that keep numbers per sphere exclude spheres that come or go.
     fn check_comings_and_goings(&self, problems: &mut Vec<Problem>) {
         if !self.has_flow() {
             return;
@@ -273,7 +273,7 @@ fn check_spacing(hopper: &Hopper, problems: &mut Vec<Problem>) {
         hopper.count() <= MOST_HOPPER_SPHERES
     };
     let widest = 2.0 * hopper.radius;
-    // Within the last digit that is typed.
+    // Tolerates rounding of the last digit given.
     let may_be_closed = fits(widest * (1.0 - 1e-5));
     let mut refuse = |message: String, help: String| {
         let help = match may_be_closed {
@@ -285,14 +285,14 @@ fn check_spacing(hopper: &Hopper, problems: &mut Vec<Problem>) {
     let count = hopper.count();
     if count > MOST_HOPPER_SPHERES {
         let message = format!("the spacing makes walls of {} spheres", rounded(count));
-        // Each part of the walls is cut into a whole number of spacings.
+        // Each part of the walls has a whole number of spacings.
         let least = 1.001 * hopper.spacing * count / MOST_HOPPER_SPHERES;
         let advice = match accepted(least.min(widest), |it| it <= widest && fits(it)) {
             Some(least) => format!("use `spacing = {least}` or more, or shorter walls"),
             None => "use a wider one, or shorter walls".to_owned(),
         };
         let most = number(MOST_HOPPER_SPHERES);
-        refuse(message, format!("{most} are the most: {advice}"));
+        refuse(message, format!("the maximum is {most}: {advice}"));
     } else if hopper.spacing > widest {
         let message = format!(
             "walls of spheres of radius {} m, {} m apart, have gaps",

@@ -1,4 +1,4 @@
-//! Whether the tables of a scene go with the spot model, and spots with the box.
+//! Whether the tables of a scene suit the spot model, and the spots the box.
 
 use super::rounded;
 use crate::document::{Problem, at_least, at_most, number};
@@ -7,13 +7,15 @@ use crate::scene::{
     Start, StartSphere,
 };
 
-/// Largest displacement of a sphere at once, in diameters: beyond it spheres pass one another.
+/// Largest displacement of a sphere in one move, in diameters: beyond it spheres pass through one
+/// another.
 const LONGEST_DISPLACEMENT: f64 = 0.5;
 
-/// Most spots that may be on their way at once.
+/// Largest number of spots present at once.
 const MOST_SPOTS: f64 = 1e7;
 
-/// How much higher than all spheres on top of each other one may start, in diameters.
+/// Margin in diameters: spheres may start up to this far above the height of all spheres stacked on
+/// each other.
 const HIGHEST: f64 = 1000.0;
 
 /// Deepest overlap at the start, in diameters: packings of soft spheres overlap a little.
@@ -44,7 +46,7 @@ fn overlap(spheres: &[StartSphere], share: f64, diameter: f64) -> Option<(usize,
     found
 }
 
-/// Refuses a ratio beside methods that have none.
+/// Refuses a ratio with methods that have none.
 fn check_relaxation_of_spots(relaxation: &SpotRelaxation, problems: &mut Vec<Problem>) {
     let name = match relaxation.method {
         RelaxationMethod::EveryMove => "every-move",
@@ -75,8 +77,8 @@ impl Scene {
         }
     }
 
-    /// Refuses spheres that start outside the box, or higher than all of them would reach on top of
-    /// each other.
+    /// Refuses spheres that start outside the box, or higher than all of them stacked on each
+    /// other.
     fn check_listed_places(&self, problems: &mut Vec<Problem>) {
         let (Start::List { spheres }, Some(tank)) = (&self.start, &self.tank) else {
             return;
@@ -153,7 +155,7 @@ impl Scene {
         self.check_output_of_spots(problems);
     }
 
-    /// Refuses output that is taken from forces, or from a round tank.
+    /// Refuses output that needs forces or a round tank.
     fn check_output_of_spots(&self, problems: &mut Vec<Problem>) {
         let (output, usual) = (&self.output, Output::default());
         let differing = [
@@ -172,12 +174,12 @@ impl Scene {
     fn check_spheres_of_spots(&self, problems: &mut Vec<Problem>) {
         let (smallest, largest) = self.radius_range();
         if smallest < largest {
-            let message = "the spot model knows spheres of one size";
+            let message = "the spot model needs spheres of one size";
             let help = "give `spheres.radius` as one number";
             problems.push(Problem::new("spheres.radius", message).help(help));
         }
         if self.spheres.shape != Shape::Sphere {
-            let message = "the spot model knows no discs";
+            let message = "the spot model does not support discs";
             problems.push(Problem::new("spheres.shape", message).help("remove it"));
         }
         if matches!(self.start, Start::Feed { .. }) {
@@ -253,7 +255,7 @@ impl Scene {
                 number(region),
                 number(radius)
             );
-            let help = "leave it out: it is that of the spot and a diameter";
+            let help = "remove it: the default is the spot's radius plus a diameter";
             problems.push(Problem::new("spot.relaxation.radius", message).help(help));
         }
         let farthest = spot.farthest_displacement();
@@ -289,7 +291,7 @@ impl Scene {
         let spots = spot.insertion_rate * (moves / spot.move_rate).min(self.time.duration);
         if spots > MOST_SPOTS {
             let message = format!(
-                "about {} spots would be on their way at once, more than {}",
+                "about {} spots would be present at once, more than {}",
                 rounded(spots),
                 number(MOST_SPOTS)
             );
@@ -306,12 +308,12 @@ impl Scene {
 }
 
 impl Spot {
-    /// Step of a spot along x and along y (m), either way: sqrt(2 b Δz).
+    /// Step of a spot in either direction along x and along y (m): sqrt(2 b Δz).
     pub fn horizontal_step(&self) -> f64 {
         (2.0 * self.diffusion_length * self.vertical_step).sqrt()
     }
 
-    /// Length of a step of a spot that no wall cuts off (m).
+    /// Length of a spot's step away from walls (m).
     fn longest_step(&self) -> f64 {
         let across = self.horizontal_step();
         (2.0 * across * across + self.vertical_step * self.vertical_step).sqrt()
@@ -322,7 +324,7 @@ impl Spot {
         let step = self.longest_step();
         let fixed = 1.0 / self.displacement_ratio;
         let weighted = self.weighting.map(|it| it.volume_ratio / it.least_count);
-        // In a corner a sphere may be in the range of a spot and of three of its images.
+        // In a corner a sphere may be in range of a spot and three of its images.
         let images = if self.reflection { 4.0 } else { 1.0 };
         images * step * weighted.map_or(fixed, |it| it.max(fixed))
     }
@@ -383,6 +385,9 @@ mod tests {
             assert!(error.contains(&expected), "{error}");
         }
         let error = scene("accuracy = \"draft\"").unwrap_err();
-        assert!(error.contains("which a scene of spots has not"), "{error}");
+        assert!(
+            error.contains("which a scene of spots does not have"),
+            "{error}"
+        );
     }
 }

@@ -1,10 +1,10 @@
-//! Whether the spheres of a scene have a place to start from.
+//! Whether the spheres of a scene can start where it says.
 
 use super::{plural, rounded};
 use crate::document::{Problem, accepted, number};
 use crate::scene::{Scene, Shape, Start, Tank};
 
-/// Most spheres that the floor under a packing may have room for.
+/// Largest number of spheres side by side on the floor under a packing.
 const MOST_BESIDE: f64 = 1e7;
 
 impl Scene {
@@ -28,7 +28,7 @@ impl Scene {
             return;
         }
         if self.tank.as_ref().and_then(Tank::area).is_none() {
-            let message = "a random start needs a tank with walls all around to be in";
+            let message = "a random start needs a tank with walls all around";
             let help = "add `radius`, or `width` and `depth`, to [tank], or list the spheres with \
                         `kind = \"list\"`";
             problems.push(Problem::new("start.kind", message).help(help));
@@ -81,13 +81,13 @@ impl Scene {
         }
     }
 
-    /// Cells of the size of a sphere are made for all of the box.
+    /// The search allocates cells of the size of a sphere for the whole box.
     fn check_floor_of_packing(&self, tank: &Tank, problems: &mut Vec<Problem>) {
         let diameter = 2.0 * self.radius_range().1;
         let spheres = tank.area().map_or(0.0, |area| area / (diameter * diameter));
         if spheres > MOST_BESIDE {
             let message = format!(
-                "the floor of the box has room for {} spheres beside each other, more than {}",
+                "the floor of the box has room for {} spheres side by side, more than {}",
                 rounded(spheres),
                 number(MOST_BESIDE)
             );
@@ -123,14 +123,14 @@ impl Scene {
         }
     }
 
-    /// Centres at the same place push each other in no direction.
+    /// Two equal centres have no direction in which to push each other.
     fn check_coincident(&self, problems: &mut Vec<Problem>) {
         let Start::List { spheres } = &self.start else {
             return;
         };
         let mut seen = std::collections::HashMap::new();
         for (index, sphere) in spheres.iter().enumerate() {
-            // Adding zero makes one of the two zeros.
+            // Adding zero turns -0 into 0.
             let place = sphere.position.map(|part| (part + 0.0).to_bits());
             if let Some(first) = seen.insert(place, index) {
                 let message = format!("spheres {first} and {index} have the same centre");

@@ -12,10 +12,10 @@ impl Scene {
         };
         if self.spot.is_some() || self.has_flow() {
             let message = match self.spot {
-                Some(_) => "[steady] looks at energy and rotation, which spots do not have",
+                Some(_) => "[steady] uses energy and rotation, which spots do not have",
                 None => {
-                    "[steady] looks at the rotation and the mean height of spheres that stay, but \
-                     here they come or go"
+                    "[steady] uses the rotation and the mean height of spheres that stay, but here \
+                        they come or go"
                 }
             };
             let help = "remove [steady]: the run ends at its duration, or when nothing is left to \
@@ -29,7 +29,7 @@ impl Scene {
         if frames < LEAST_VALUES as u64 {
             let message = format!(
                 "`steady.window` = {} s has {frames} frames of `time.frame_interval` = {} s, too \
-                 few to tell a trend",
+                    few to detect a trend",
                 number(steady.window),
                 number(time.frame_interval),
             );

@@ -1,4 +1,4 @@
-//! Whether the walls of a tank go together, and with the spheres.
+//! Whether the walls of a tank are consistent and fit the spheres.
 
 use crate::document::{Problem, number};
 use crate::scene::validate::rounded;
@@ -70,18 +70,18 @@ impl Scene {
         }
     }
 
-    /// Friction of walls that have none, or that nothing feels.
+    /// Refuses a coefficient of friction at walls in a scene without friction.
     pub(super) fn check_friction_of_walls(&self, problems: &mut Vec<Problem>) {
         let tank = self.tank.as_ref();
         let is_given = tank.is_some_and(|tank| tank.friction_coefficient.is_some());
         if is_given && self.dem.friction.is_none() {
-            let message = "`tank.friction_coefficient` is one of friction, but there is none";
+            let message = "`tank.friction_coefficient` needs [friction], but there is none";
             let help = "add [friction] with its law, or remove the coefficient";
             problems.push(Problem::new("tank.friction_coefficient", message).help(help));
         }
     }
 
-    /// The first key of the walls that leave the largest sphere no room, and its value (m).
+    /// The first key of walls too narrow for the largest sphere, and its value (m).
     pub(crate) fn misfit(&self) -> Option<(&'static str, f64)> {
         let Tank {
             radius,

@@ -1,4 +1,4 @@
-//! Whether the times of a scene go together.
+//! Whether the times of a scene are consistent.
 
 use super::rounded;
 use crate::document::{Problem, accepted, number};
@@ -28,7 +28,7 @@ impl Scene {
         if frames > MOST_FRAMES {
             let message = format!("the run would have {} frames", rounded(frames));
             let help = format!(
-                "{} are the most; use a larger interval",
+                "the maximum is {}; use a larger interval",
                 number(MOST_FRAMES)
             );
             problems.push(Problem::new("time.frame_interval", message).help(help));
@@ -47,7 +47,7 @@ impl Scene {
         }
     }
 
-    /// What happens at steps must not fall between them.
+    /// Events that happen at steps must not fall between them.
     pub(crate) fn check_whole_steps(&self, problems: &mut Vec<Problem>) {
         let (dt, safety_factor) = (self.time.dt, self.time.safety_factor);
         if safety_factor.is_some() {
@@ -73,7 +73,7 @@ impl Scene {
     }
 }
 
-/// Whether `time` is a whole number of times `unit`, once or more often.
+/// Whether `time` is a whole multiple of `unit`, at least 1.
 pub(crate) fn multiple(time: f64, unit: f64) -> bool {
     let ratio = time / unit;
     let whole = libm::round(ratio);

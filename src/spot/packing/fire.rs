@@ -4,14 +4,14 @@
 use crate::particles::block::ROWS;
 use crate::particles::vector::Vector;
 use crate::spot::arrangement::{Arrangement, Sorting};
-use crate::spot::guard::{Failure, Fault};
-use crate::spot::model::Model;
-use crate::spot::neighbours::Neighbours;
+use crate::spot::guard::{Fault, SpotFailure};
+use crate::spot::model::SpotRules;
+use crate::spot::neighbours::NeighbourLists;
 use crate::spot::parameters::Parameters;
-use crate::spot::random::Stream;
-use crate::spot::relax::Eight;
+use crate::spot::random::RandomStream;
+use crate::spot::relax::EightDisplacements;
 use crate::spot::slack::Slack;
-use crate::spot::state::StartError;
+use crate::spot::state::SpotError;
 
 /// The first time step, in units in which mass and stiffness of an overlap are 1 and 1/2.
 const FIRST_STEP: f64 = 0.3;
@@ -22,19 +22,19 @@ const LONGEST_STEP: f64 = 0.5;
 /// Greatest component of the velocities at first, in diameters.
 const SHAKE: f64 = 0.025;
 
-/// Steps in which spheres go on with these velocities, under repulsion and drag. Without any the
-/// packing fraction stays at .62. Twice the velocity and four times the steps make more than half
-/// of the packing crystallise.
+/// Steps in which spheres keep moving with these velocities, under repulsion and drag. Without such
+/// steps the packing fraction stays at .62. With twice the velocity and four times the steps more
+/// than half of the packing crystallises.
 const SHAKEN: usize = 50;
 
 /// Slack of the spheres, in diameters.
 const SLACK: f64 = 0.15;
 
-/// Share of the velocity that is lost in each step. Without it, spheres that do not touch would fly
-/// about for ever.
+/// Share of the velocity that is lost in each step. Without it, spheres that do not touch would
+/// never stop.
 const DRAG: f64 = 0.02;
 
-/// Steps in which spheres either come apart or count as jammed.
+/// Steps within which spheres separate; otherwise they count as jammed.
 const MOST_STEPS: usize = 6000;
 
 /// Steps between two searches for overlaps.
@@ -42,15 +42,15 @@ const CHECK: usize = 25;
 
 /// Pushes spheres apart.
 pub(super) struct Minimizer {
-    model: Model,
-    /// Distance that centres are to have (m); the diameter of `model` is a little larger.
+    model: SpotRules,
+    /// Required distance of centres (m); the diameter of `model` is slightly larger.
     apart: f64,
-    displacement: Vec<Eight>,
-    random: Stream,
+    displacement: Vec<EightDisplacements>,
+    random: RandomStream,
 }
 
-/// Spheres on their way.
-struct Spheres {
+/// The moving spheres.
+struct MovingSpheres {
     arrangement: Arrangement,
     position: Vec<Vector>,
     velocity: Vec<Vector>,
@@ -58,17 +58,17 @@ struct Spheres {
 
 /// Sums over all spheres that steer the minimisation.
 #[derive(Clone, Copy, Default)]
-struct Sums {
+struct FireSums {
     power: f64,
     force_squared: f64,
     speed_squared: f64,
 }
 
 impl Minimizer {
-    /// A minimiser for spheres of an inflated diameter that are to be farther `apart` (m).
-    pub(super) fn new(inflated: &Parameters, apart: f64, random: Stream) -> Self {
+    /// A minimiser for spheres of an inflated diameter, until centres are at least `apart` (m).
+    pub(super) fn new(inflated: &Parameters, apart: f64, random: RandomStream) -> Self {
         Self {
-            model: Model::new(inflated.clone()),
+            model: SpotRules::new(inflated.clone()),
             apart,
             displacement: Vec::new(),
             random,
@@ -81,7 +81,7 @@ impl Minimizer {
         &mut self,
         centres: &mut Vec<Vector>,
         height: f64,
-    ) -> Result<bool, StartError> {
+    ) -> Result<bool, SpotError> {
         let velocity = centres.iter().map(|_| self.shove()).collect();
         let mut spheres = self.sort(std::mem::take(centres), velocity)?;
         let apart = self.minimize(&mut spheres, height)?;
@@ -90,7 +90,7 @@ impl Minimizer {
         Ok(apart)
     }
 
-    /// A random velocity. Between walls that leave no room there is none across them.
+    /// A random velocity. Its component across walls that leave no room is zero.
     fn shove(&mut self) -> Vector {
         let mut along = || SHAKE * self.model.diameter * (2.0 * self.random.uniform() - 1.0);
         let [x, y, z] = [along(), along(), along()];
@@ -103,7 +103,7 @@ impl Minimizer {
         &self,
         mut position: Vec<Vector>,
         velocity: Vec<Vector>,
-    ) -> Result<Spheres, StartError> {
+    ) -> Result<MovingSpheres, SpotError> {
         let ids = (0..velocity.len() as u32).collect();
         let sorted = (&mut position, ids);
         let diameter = self.model.diameter;
@@ -111,27 +111,27 @@ impl Minimizer {
             slack: Slack::uniform(SLACK * diameter, diameter),
             ..self.model.sorting()
         };
-        let arrangement = Arrangement::sorted(sorting, sorted, Neighbours::new());
+        let arrangement = Arrangement::sorted(sorting, sorted, NeighbourLists::new());
         let arrangement = arrangement.map_err(start_error)?;
         let velocity = arrangement
             .id
             .iter()
             .map(|&from| velocity[from as usize])
             .collect();
-        Ok(Spheres {
+        Ok(MovingSpheres {
             arrangement,
             position,
             velocity,
         })
     }
 
-    fn minimize(&mut self, spheres: &mut Spheres, height: f64) -> Result<bool, StartError> {
+    fn minimize(&mut self, spheres: &mut MovingSpheres, height: f64) -> Result<bool, SpotError> {
         const MIXING: f64 = 0.1;
         let (mut time_step, mut mixing, mut downhill) = (FIRST_STEP, MIXING, 0);
         for step in 1..=MOST_STEPS {
             let sums = self.kick(spheres, height, time_step)?;
             if step <= SHAKEN {
-                // Velocities go on.
+                // Velocities carry over.
             } else if sums.power > 0.0 {
                 let turn = mixing * (sums.speed_squared / sums.force_squared).sqrt();
                 self.turn(spheres, height, (mixing, turn));
@@ -156,7 +156,7 @@ impl Minimizer {
         Ok(false)
     }
 
-    /// Force on a sphere of this displacement by its neighbours, with that of the walls.
+    /// Force on a sphere: from its neighbours, given as a displacement, and from the walls.
     #[inline(always)]
     fn force(&self, centre: Vector, displacement: Vector, height: f64) -> Vector {
         let radius = 0.5 * self.model.diameter;
@@ -168,10 +168,10 @@ impl Minimizer {
     /// Adds forces to velocities.
     fn kick(
         &mut self,
-        spheres: &mut Spheres,
+        spheres: &mut MovingSpheres,
         height: f64,
         time_step: f64,
-    ) -> Result<Sums, StartError> {
+    ) -> Result<FireSums, SpotError> {
         let (arrangement, position) = (&spheres.arrangement, &spheres.position);
         let mut displacement = std::mem::take(&mut self.displacement);
         let found = self.model.displacements_of_all(
@@ -181,7 +181,7 @@ impl Minimizer {
         );
         self.displacement = displacement;
         found.map_err(start_error)?;
-        let mut sums = Sums::default();
+        let mut sums = FireSums::default();
         for (slot, velocity) in spheres.velocity.iter_mut().enumerate() {
             let by_others = self.displacement[slot / ROWS].vector(slot % ROWS);
             let force = self.force(spheres.position[slot], by_others, height);
@@ -194,7 +194,7 @@ impl Minimizer {
     }
 
     /// Turns velocities towards forces.
-    fn turn(&self, spheres: &mut Spheres, height: f64, (mixing, factor): (f64, f64)) {
+    fn turn(&self, spheres: &mut MovingSpheres, height: f64, (mixing, factor): (f64, f64)) {
         for (slot, velocity) in spheres.velocity.iter_mut().enumerate() {
             let by_others = self.displacement[slot / ROWS].vector(slot % ROWS);
             let force = self.force(spheres.position[slot], by_others, height);
@@ -203,8 +203,8 @@ impl Minimizer {
     }
 
     /// Whether all centres are far enough apart and inside the box of the true diameter.
-    fn are_apart(&self, spheres: &Spheres) -> bool {
-        let Spheres {
+    fn are_apart(&self, spheres: &MovingSpheres) -> bool {
+        let MovingSpheres {
             arrangement,
             position,
             ..
@@ -225,7 +225,7 @@ impl Minimizer {
 }
 
 /// Moves spheres by their velocities. True if they must be sorted.
-fn drift(spheres: &mut Spheres, time_step: f64) -> bool {
+fn drift(spheres: &mut MovingSpheres, time_step: f64) -> bool {
     let mut stale = false;
     let arrangement = &spheres.arrangement;
     for (slot, velocity) in spheres.velocity.iter().enumerate() {
@@ -237,8 +237,8 @@ fn drift(spheres: &mut Spheres, time_step: f64) -> bool {
     stale
 }
 
-fn start_error(fault: Fault) -> StartError {
-    StartError::Failure(Box::new(Failure {
+fn start_error(fault: Fault) -> SpotError {
+    SpotError::Failure(Box::new(SpotFailure {
         guard: fault.guard,
         moves: 0,
         time: 0.0,

@@ -1,7 +1,7 @@
 //! The packing fraction in the middle of a box.
 
 use crate::particles::vector::Vector;
-use crate::spot::cells::Cells;
+use crate::spot::cells::SphereCells;
 use crate::spot::parameters::Parameters;
 
 /// Distance of the middle from floor and top, in diameters.
@@ -13,10 +13,11 @@ const RESOLUTION: f64 = 8.0;
 /// Least distance of opposite walls, in diameters: between nearer ones all spheres are in layers.
 const NARROWEST: f64 = 4.0;
 
-/// Share of the middle of the box that lies in spheres, at a lattice of points. From walls, which
-/// order the spheres in layers, the weight of the points rises smoothly from 0 at one diameter to 1
-/// in the middle, which averages over the layers. Exact to about .002. Zero if the packing is lower
-/// than eight diameters, or walls are less than four apart: it has no such middle then.
+/// Fraction of a lattice of points in the middle of the box that lie in spheres. Walls order the
+/// spheres in layers; to average over the layers, the weight of the points rises smoothly from 0 at
+/// one diameter from a wall to 1 in the middle. Accurate to about .002. Zero if the packing is
+/// lower than eight diameters or opposite walls are less than four apart: there is then no such
+/// middle.
 pub fn packing_fraction(parameters: &Parameters, centres: &[Vector]) -> f64 {
     let d = parameters.diameter;
     let top = centres.iter().fold(0.0, |most: f64, it| most.max(it.z));
@@ -25,7 +26,7 @@ pub fn packing_fraction(parameters: &Parameters, centres: &[Vector]) -> f64 {
     if top < 8.0 * d || is_narrow {
         return 0.0;
     }
-    let mut cells = Cells::new(d, halves, top);
+    let mut cells = SphereCells::new(d, halves, top);
     let order = cells.sort(centres);
     let sorted: Vec<Vector> = order.iter().map(|&it| centres[it as usize]).collect();
     let step = d / RESOLUTION;

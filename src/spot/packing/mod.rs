@@ -1,10 +1,10 @@
 //! Random dense packings to start from.
 //!
 //! Spheres at random places under a lid are pushed apart until none overlap: the energy of a soft
-//! repulsion is minimised. Between near walls they may find no room; the lid is raised then,
-//! and they begin at other places. The lid is then lowered in small steps, each with a
-//! minimisation, until the middle of the box has the packing fraction of random close packing, or
-//! until the spheres jam: the procedure of O'Hern, Silbert, Liu and Nagel, Physical Review E 68
+//! repulsion is minimised. Between close walls they may find no room; the lid is then raised, and
+//! they start from other places. The lid is then lowered in small steps, each with a minimisation,
+//! until the middle of the box has the packing fraction of random close packing, or until the
+//! spheres jam: the procedure of O'Hern, Silbert, Liu and Nagel, Physical Review E 68
 //! (2003) 011306. There is no gravity. The lid is then taken away, which leaves the top free.
 
 mod fire;
@@ -12,8 +12,8 @@ mod fraction;
 mod of_scene;
 
 use super::parameters::{Parameters, Relaxation};
-use super::random::Stream;
-use super::state::StartError;
+use super::random::RandomStream;
+use super::state::SpotError;
 use super::threads::Workers;
 use crate::particles::vector::Vector;
 use fire::Minimizer;
@@ -24,8 +24,8 @@ pub use of_scene::{make, name};
 /// Packing fraction in the middle of the box at which the lid stops.
 pub const PACKING_FRACTION: f64 = 0.64;
 
-/// Packing fraction of the whole box at which minimisation begins; from there it always succeeds,
-/// but between walls a few diameters apart.
+/// Packing fraction of the whole box at which minimisation begins; it always succeeds there, except
+/// between walls a few diameters apart.
 const FIRST_FRACTION: f64 = 0.57;
 
 /// The lid is raised by this factor if spheres find no room below it.
@@ -34,26 +34,26 @@ const RAISE: f64 = 1.2;
 /// Greatest height of the lid, over the height of all spheres stacked: each has room then.
 const HIGHEST: f64 = 4.0;
 
-/// Share of the height by which the lid is lowered at once.
+/// Share of the height by which the lid is lowered in one step.
 const STEP: f64 = 0.003;
 
 /// The least share of the height.
 const LEAST_STEP: f64 = 0.0002;
 
-/// Spheres are kept apart by this share of the diameter more than is promised, which makes the
-/// minimisation end after finitely many steps.
+/// Spheres are kept apart by this additional share of the diameter, so that the minimisation ends
+/// after finitely many steps.
 const INFLATION: f64 = 1e-3;
 
 /// Why there is no packing.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum PackingError {
-    /// A parameter cannot be, or threads cannot be started.
+    /// A parameter is invalid, or threads cannot be started.
     #[error(transparent)]
-    Start(#[from] StartError),
+    Start(#[from] SpotError),
     /// There are no spheres.
     #[error("a packing needs at least one sphere")]
     NoSpheres,
-    /// Spheres stay overlapped.
+    /// Spheres still overlap.
     #[error(
         "{spheres} spheres could not be pushed apart below a lid at {height} m; make `tank.width` \
          and `tank.depth` larger"
@@ -72,7 +72,7 @@ pub enum PackingError {
 ///
 /// # Errors
 ///
-/// If a parameter cannot be, if there are no spheres, or if they cannot be pushed apart.
+/// If a parameter is invalid, if there are no spheres, or if they cannot be pushed apart.
 pub fn random_packing(
     parameters: &Parameters,
     spheres: usize,
@@ -82,8 +82,8 @@ pub fn random_packing(
     if spheres == 0 {
         return Err(PackingError::NoSpheres);
     }
-    parameters.check_box().map_err(StartError::from)?;
-    let workers = Workers::new(threads).map_err(|it| StartError::Threads(it.to_string()))?;
+    parameters.check_box().map_err(SpotError::from)?;
+    let workers = Workers::new(threads).map_err(|it| SpotError::Threads(it.to_string()))?;
     workers.install(|| lower_lid(parameters, spheres, seed))
 }
 
@@ -102,8 +102,11 @@ fn lower_lid(
         relaxation_strength: 1.0,
         ..parameters.clone()
     };
-    let mut minimizer =
-        Minimizer::new(&inflated, parameters.diameter, Stream::new("shaking", seed));
+    let mut minimizer = Minimizer::new(
+        &inflated,
+        parameters.diameter,
+        RandomStream::new("shaking", seed),
+    );
     let mut centres = random_centres(&inflated, height, spheres, seed);
     while !minimizer.push_apart(&mut centres, height)? {
         if height > HIGHEST * spheres as f64 * diameter {
@@ -130,7 +133,7 @@ fn lower_lid(
 
 /// Centres at random between the walls, the floor and a lid.
 fn random_centres(parameters: &Parameters, height: f64, spheres: usize, seed: u64) -> Vec<Vector> {
-    let mut random = Stream::new("start packing", seed);
+    let mut random = RandomStream::new("start packing", seed);
     let radius = 0.5 * parameters.diameter;
     let halves = [parameters.half_width, parameters.half_depth];
     let mut place = || {

@@ -1,12 +1,12 @@
-//! The packing of a scene: which one it is, and how it is made.
+//! The packing of a scene: its name, and how it is made.
 
 use super::{PackingError, random_packing};
 use crate::scene::Scene;
 use crate::spot::parameters::Parameters;
 
-/// What chooses a packing.
-struct Choice {
-    /// Of how packings are made: another one makes others.
+/// The quantities on which a packing depends.
+struct PackingKey {
+    /// Version of the method: another version makes other packings.
     version: u32,
     spheres: usize,
     radius: f64,
@@ -15,10 +15,10 @@ struct Choice {
     seed: u64,
 }
 
-/// Of how packings are made.
+/// Version of the method.
 const VERSION: u32 = 3;
 
-impl Choice {
+impl PackingKey {
     fn of(scene: &Scene) -> Self {
         let tank = scene.tank.clone().unwrap_or_default();
         Self {
@@ -31,10 +31,10 @@ impl Choice {
     }
 }
 
-/// The name of the packing that a scene starts with: scenes of one name start with the same. Where
-/// the floor is, and what else the scene has, does not matter.
+/// The name of the packing that a scene starts with: scenes with the same name start with the same
+/// packing. The height of the floor and everything else in the scene do not matter.
 pub fn name(scene: &Scene) -> String {
-    let choice = Choice::of(scene);
+    let choice = PackingKey::of(scene);
     let text = format!(
         "{} {} {:?} {:?} {}",
         choice.version, choice.spheres, choice.radius, choice.sides, choice.seed
@@ -47,7 +47,7 @@ pub fn name(scene: &Scene) -> String {
 /// # Errors
 /// If the spheres cannot be pushed apart.
 pub fn make(scene: &Scene, threads: usize) -> Result<Vec<[f64; 3]>, PackingError> {
-    let choice = Choice::of(scene);
+    let choice = PackingKey::of(scene);
     let diameter = 2.0 * choice.radius;
     let [half_width, half_depth] = choice.sides.map(|side| 0.5 * side);
     let parameters = Parameters {

@@ -8,8 +8,7 @@ const FRAMES: usize = 2000;
 const CONFIDENCE: f64 = 0.95;
 const SERIES: u64 = 2000;
 
-/// Noise of mean 0 and scatter 1 in which each value holds on to the one before: its integrated
-/// correlation time is `time` frames.
+/// Correlated noise of mean 0 and scatter 1, with an integrated correlation time of `time` frames.
 fn noise(time: f64, seed: u64) -> Vec<f64> {
     let mut random = Pcg64::seed_from_u64(seed);
     let mut normal = || {
@@ -26,7 +25,7 @@ fn noise(time: f64, seed: u64) -> Vec<f64> {
     (0..FRAMES).map(|_| next()).collect()
 }
 
-/// Noise on a line that changes by so much.
+/// Noise on a line that changes by `change`.
 fn drifting(change: f64, time: f64, seed: u64) -> Vec<f64> {
     let slope = change / (FRAMES - 1) as f64;
     let noise = noise(time, seed).into_iter().enumerate();
@@ -39,7 +38,7 @@ fn trend(values: &[f64]) -> Trend {
     Trend::of(values, CONFIDENCE).unwrap()
 }
 
-/// Share of so many series, by their seeds, of which something is true.
+/// Share of series, by their seeds, for which a condition holds.
 fn share(of: impl Fn(u64) -> bool) -> f64 {
     (0..SERIES).filter(|seed| of(*seed)).count() as f64 / SERIES as f64
 }
@@ -73,9 +72,9 @@ fn a_trend_that_matters_passes_as_rarely_as_it_should() {
     }
 }
 
-/// How often a steady series passes, by what its length resolves: the least change over the
-/// scatter, times the root of the number of samples. At ten of these two thirds pass, at fifteen
-/// nearly all.
+/// How often a steady series passes, by the resolution of its length: the least change over the
+/// scatter, times the root of the number of samples. At a resolution of ten two thirds pass, at
+/// fifteen nearly all.
 #[test]
 fn a_steady_series_passes_where_its_length_resolves_enough() {
     for (samples, least, expected) in [
@@ -92,8 +91,7 @@ fn a_steady_series_passes_where_its_length_resolves_enough() {
     }
 }
 
-/// What no length of the series could tell is not decided: four correlation times look like a trend
-/// as often as not.
+/// Too short series are not decided: four correlation times often look like a trend.
 #[test]
 fn a_few_correlation_times_decide_nothing() {
     let passed = share(|seed| trend(&noise(500.0, seed)).is_within(1.5));
@@ -115,7 +113,7 @@ fn samples_are_counted_by_the_correlation_time() {
     assert!(white > 300.0 && white <= MOST_BINS as f64, "{white}");
 }
 
-/// A correlation that the line through the series would hide: the change itself is not noise.
+/// The change itself is not noise: the correlation is taken about the line.
 #[test]
 fn a_change_does_not_widen_its_own_interval() {
     let [still, moving] = [0.0, 100.0].map(|change| trend(&drifting(change, 10.0, 7)));

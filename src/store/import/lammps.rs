@@ -1,7 +1,7 @@
 //! Text dumps of LAMMPS (`dump atom` and `dump custom`), of which LIGGGHTS writes the same.
 
 use super::Lines;
-use crate::replay::{Moment, WrittenState};
+use crate::replay::{StateTime, WrittenState};
 use crate::store::StoreError;
 
 /// How each part of a state begins.
@@ -27,9 +27,9 @@ pub(super) fn state<'a>(first: &'a str, lines: &mut Lines<'a>) -> Result<Written
         }
         if item == "TIMESTEP" {
             let step = lines.next_number("a number of steps")?;
-            moment.get_or_insert(Moment::Step(step));
+            moment.get_or_insert(StateTime::Step(step));
         } else if item == "TIME" {
-            moment = Some(Moment::Time(lines.next_number("a time")?));
+            moment = Some(StateTime::Time(lines.next_number("a time")?));
         } else if item == "NUMBER OF ATOMS" {
             count = Some(lines.next_number("a number of spheres")?);
         } else if let Some(kind) = item.strip_prefix("BOX BOUNDS") {

@@ -129,7 +129,7 @@ impl<'a> Lines<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::replay::Moment;
+    use crate::replay::StateTime;
 
     fn read(text: &str) -> Result<Vec<WrittenState>, String> {
         let folder = tempfile::tempdir().unwrap();
@@ -146,7 +146,7 @@ mod tests {
     fn dumps_and_xyz_files_give_the_same_states() {
         let dump = read(&DUMP.repeat(2)).unwrap();
         assert_eq!(dump.len(), 2);
-        assert_eq!(dump[0].moment, Moment::Step(200));
+        assert_eq!(dump[0].moment, StateTime::Step(200));
         assert_eq!(
             dump[0].spheres,
             [(7, [0.5, -1.0, 2.0]), (3, [-0.5, 1.0, 4.0])]
@@ -156,11 +156,11 @@ mod tests {
             .replace("0.5 -1 2", "0.75 0.25 0.2");
         assert_eq!(read(&scaled).unwrap()[0].spheres[0].1, [0.5, -1.0, 2.0]);
         let timed = DUMP.replace("ITEM: NUMBER", "ITEM: TIME\n0.25\nITEM: NUMBER");
-        assert_eq!(read(&timed).unwrap()[0].moment, Moment::Time(0.25));
+        assert_eq!(read(&timed).unwrap()[0].moment, StateTime::Time(0.25));
         let xyz = "2\nProperties=species:S:1:pos:R:3:velo:R:3:id:I:1 Time=0.25\n\
                    X 0.5 -1 2 0 0 0 7\nX -0.5 1 4 0 0 0 3\n";
         let xyz = read(xyz).unwrap();
-        assert_eq!(xyz[0].moment, Moment::Time(0.25));
+        assert_eq!(xyz[0].moment, StateTime::Time(0.25));
         assert_eq!(xyz[0].spheres, dump[0].spheres);
         assert!(xyz[0].are_numbered && dump[0].are_numbered);
         // Without numbers the lines count.

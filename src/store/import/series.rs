@@ -3,7 +3,7 @@
 use super::vtk_numbers::Spheres;
 use super::{line_at, vtk_legacy, vtk_xml};
 use crate::document::text;
-use crate::replay::{Moment, WrittenState};
+use crate::replay::{StateTime, WrittenState};
 use crate::store::StoreError;
 use roxmltree::{Document, Node};
 use serde::Deserialize;
@@ -123,7 +123,7 @@ fn states(
     let state = |entry: &Entry| {
         let spheres = spheres(&folder.join(&entry.name), path)?;
         Ok(WrittenState {
-            moment: Moment::Time(entry.time),
+            moment: StateTime::Time(entry.time),
             are_numbered: spheres.are_numbered,
             spheres: spheres.all,
         })
@@ -146,7 +146,7 @@ fn spheres(path: &Path, list: &Path) -> Result<Spheres, StoreError> {
 
 #[cfg(test)]
 mod tests {
-    use crate::replay::{Moment, WrittenState};
+    use crate::replay::{StateTime, WrittenState};
     use crate::store::read_states;
     use std::fs;
 
@@ -191,7 +191,7 @@ mod tests {
     fn collections_and_series_give_the_same_states() {
         let states = pvd(THREE).unwrap();
         let state = |time: f64, x: &[f64]| WrittenState {
-            moment: Moment::Time(time),
+            moment: StateTime::Time(time),
             are_numbered: x.is_empty(),
             spheres: x.iter().map(|x| (0, [*x, 0.0, 0.0])).collect(),
         };

@@ -1,7 +1,7 @@
 //! Extended XYZ: the number of spheres, a line with `Properties=` and `Time=`, a line per sphere.
 
 use super::Lines;
-use crate::replay::{Moment, WrittenState};
+use crate::replay::{StateTime, WrittenState};
 use crate::store::StoreError;
 
 /// Where a row has what is read of it.
@@ -18,7 +18,7 @@ pub(super) fn state(first: &str, lines: &mut Lines<'_>) -> Result<WrittenState, 
     let head = lines.next("the line with `Time=`")?;
     let time = key(head, "Time").or_else(|| key(head, "time"));
     let time = time.ok_or_else(|| lines.refuse("the line does not say `Time=`"))?;
-    let moment = Moment::Time(lines.number(time, "a time")?);
+    let moment = StateTime::Time(lines.number(time, "a time")?);
     let columns = columns(head).map_err(|reason| lines.refuse(&reason))?;
     let mut spheres = Vec::new();
     for index in 0..count {

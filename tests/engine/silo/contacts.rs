@@ -1,7 +1,7 @@
 //! The linear contact and its friction.
 
 use super::hopper;
-use phase::dem::Simulation;
+use phase::dem::DemSimulation;
 use phase::particles::vector::Vector;
 use phase::scene::Scene;
 
@@ -52,7 +52,7 @@ fn steps_are_the_five_of_the_document() {
         r#"damping = 0.05, drag = "whole""#,
         "",
     );
-    let mut simulation = Simulation::new(&scene).unwrap();
+    let mut simulation = DemSimulation::new(&scene).unwrap();
     let start = [Vector::ZERO, Vector::new(0.1, 0.0, 0.03)];
     let mut touched = false;
     for steps in [10, 30, 60] {
@@ -90,8 +90,8 @@ fn momentum_is_kept_and_angular_momentum_but_for_the_drag_between_centres() {
     ];
     for friction in frictions {
         let scene = free(spheres, "damping = 0.05", friction);
-        let mut simulation = Simulation::new(&scene).unwrap();
-        let momenta = |simulation: &Simulation| {
+        let mut simulation = DemSimulation::new(&scene).unwrap();
+        let momenta = |simulation: &DemSimulation| {
             let particles = simulation.particles();
             let (mut linear, mut angular) = (Vector::ZERO, 0.0);
             for i in 0..particles.len() {
@@ -136,9 +136,9 @@ fn friction_never_drives() {
             friction,
         );
         scene.time.dt = 5e-6;
-        let mut simulation = Simulation::new(&scene).unwrap();
+        let mut simulation = DemSimulation::new(&scene).unwrap();
         // Speed of one surface along the other; the line of centres turns by less than a hundredth.
-        let sliding = |simulation: &Simulation| {
+        let sliding = |simulation: &DemSimulation| {
             let particles = simulation.particles();
             let [one, other] = [0, 1].map(|i| (particles.velocity[i].z, particles.spin[i].y));
             (one.0 - other.0 - 0.04 * (one.1 + other.1)).abs()
@@ -185,12 +185,12 @@ fn a_heavier_grain_with_a_stiffer_spring_moves_in_the_same_way() {
         ),
         ("kinetic_energy = 1e-4", "kinetic_energy = 64e-4"),
     ]);
-    let [mut light, mut heavy] = [light, heavy].map(|scene| Simulation::new(&scene).unwrap());
+    let [mut light, mut heavy] = [light, heavy].map(|scene| DemSimulation::new(&scene).unwrap());
     // Filled at 3 s, at rest, open, and half empty.
     for _ in 0..16 {
         light.advance(1000).unwrap();
         heavy.advance(1000).unwrap();
-        let bits = |simulation: &Simulation| {
+        let bits = |simulation: &DemSimulation| {
             let position = simulation.particles().position.clone();
             let numbers = position.into_iter().flat_map(|it| [it.x, it.z]);
             numbers.map(f64::to_bits).collect::<Vec<_>>()
@@ -204,9 +204,9 @@ fn a_heavier_grain_with_a_stiffer_spring_moves_in_the_same_way() {
 fn a_heap_with_friction_stays_where_it_is() {
     // Without regularisation there is no creep: after the grains are at rest, none moves any more.
     let scene = hopper(&[("door = {}", "door = { opens = 29.0 }")]);
-    let mut simulation = Simulation::new(&scene).unwrap();
+    let mut simulation = DemSimulation::new(&scene).unwrap();
     simulation.advance(20_000).unwrap();
-    let place = |simulation: &Simulation| simulation.particles().position.clone();
+    let place = |simulation: &DemSimulation| simulation.particles().position.clone();
     let before = place(&simulation);
     simulation.advance(20_000).unwrap();
     for (now, before) in place(&simulation).iter().zip(&before) {

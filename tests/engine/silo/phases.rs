@@ -1,7 +1,7 @@
 //! Feed, rest, door: when each comes.
 
 use super::{hopper, record, time_of};
-use phase::dem::Simulation;
+use phase::dem::DemSimulation;
 use phase::record::MilestoneKind;
 use phase::scene::{DemScene, Door, Scene};
 
@@ -55,7 +55,7 @@ fn a_grain_waits_until_its_place_is_free() {
             "interval = 0.01, spread = 0.0",
         ),
     ]);
-    let mut simulation = Simulation::new(&scene).unwrap();
+    let mut simulation = DemSimulation::new(&scene).unwrap();
     for _ in 0..100 {
         simulation.advance(100).unwrap();
         let particles = simulation.particles();

@@ -2,12 +2,12 @@
 
 use super::hopper;
 use crate::support::Workplace;
-use phase::dem::Simulation;
+use phase::dem::DemSimulation;
 use phase::scene::{DemScene, Neighbours, Scene};
 
 /// Bits of all positions, velocities and spins after every part of a run.
 fn bits(scene: &Scene, parts: usize) -> Vec<u64> {
-    let mut simulation = Simulation::new(scene).unwrap();
+    let mut simulation = DemSimulation::new(scene).unwrap();
     let mut bits = Vec::new();
     for _ in 0..parts {
         simulation.advance(1000).unwrap();
@@ -112,7 +112,7 @@ fn a_hash_table_finds_grains_that_are_far_apart() {
     let expected = run(Neighbours::AllPairs);
     assert!(run(Neighbours::HashedCells { length: 0.06 }) == expected);
     assert!(run(Neighbours::Cells { length: 0.06 }) == expected);
-    let mut simulation = Simulation::new(&Scene {
+    let mut simulation = DemSimulation::new(&Scene {
         dem: DemScene {
             neighbours: Neighbours::HashedCells { length: 0.06 },
             ..far.dem

@@ -4,7 +4,7 @@
 use super::bench::{LIMIT, PLAIN, RADIUS, at, downward, moving};
 use super::contacts::rebounds;
 use crate::scenes::{cluster, damped, energy};
-use phase::dem::{Simulation, timestep};
+use phase::dem::{DemSimulation, timestep};
 use phase::record::{Guard, Instability};
 use phase::scene::{
     Contact, ContactDrag, CundallStrack, Friction, Integrator, Linear, Mindlin, Scene, SpinDamping,
@@ -26,7 +26,7 @@ fn motion(
     part: f64,
     steps: u64,
 ) -> Result<[f64; 2], Instability> {
-    let mut simulation = Simulation::new(&at(scene, integrator, part)).unwrap();
+    let mut simulation = DemSimulation::new(&at(scene, integrator, part)).unwrap();
     simulation.advance(steps)?;
     let particles = simulation.particles();
     let spin = particles.spin.first().map_or(0.0, |spin| spin.norm());
@@ -76,7 +76,7 @@ fn oblique(integrator: Integrator, part: f64) -> f64 {
             1e-6,
         );
         assert_limited_by(&scene, "sticking contact");
-        let mut simulation = Simulation::new(&at(&scene, integrator, part)).unwrap();
+        let mut simulation = DemSimulation::new(&at(&scene, integrator, part)).unwrap();
         let before = energy(&mut simulation, 0.0);
         match simulation.advance(1000) {
             Ok(()) => energy(&mut simulation, 0.0) / before,

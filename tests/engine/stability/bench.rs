@@ -1,7 +1,7 @@
 //! What the cases share: scenes at a part of their limit, and what a run shows on its way.
 
 use crate::scenes::energy;
-use phase::dem::{Simulation, timestep};
+use phase::dem::{DemSimulation, timestep};
 use phase::particles::Particles;
 use phase::record::{Guard, Instability};
 use phase::scene::{Gravity, Integrator, Scene, StartSphere};
@@ -72,7 +72,7 @@ pub(crate) fn downward() -> Option<Gravity> {
 const PATIENCE: u64 = 1000;
 
 /// Advances until the first contact is over, and the step after, which has the last kick.
-pub(crate) fn collide(simulation: &mut Simulation) -> Result<(), Instability> {
+pub(crate) fn collide(simulation: &mut DemSimulation) -> Result<(), Instability> {
     while simulation.elastic_energy() == 0.0 && simulation.step() < PATIENCE {
         simulation.advance(1)?;
     }
@@ -95,7 +95,7 @@ pub(crate) struct Seen {
 
 /// Advances a run and looks at it so many times.
 pub(crate) fn watch(
-    simulation: &mut Simulation,
+    simulation: &mut DemSimulation,
     scene: &Scene,
     steps: u64,
     looks: u64,
@@ -135,7 +135,7 @@ pub(crate) fn fair(scene: &Scene, steps: u64) -> u64 {
 
 /// Runs a scene and looks at it so many times.
 pub(crate) fn run(scene: &Scene, steps: u64, looks: u64) -> Result<Seen, Instability> {
-    watch(&mut Simulation::new(scene).unwrap(), scene, steps, looks)
+    watch(&mut DemSimulation::new(scene).unwrap(), scene, steps, looks)
 }
 
 /// Asserts that a run kept its energy below so many times that of the start, or was reported as

@@ -2,7 +2,7 @@
 
 use super::bench::{LIMIT, RADIUS, at, collide, keeps_or_is_reported, moving, run};
 use crate::scenes::{angular_momentum, cluster, momentum, scales};
-use phase::dem::Simulation;
+use phase::dem::DemSimulation;
 use phase::record::{Guard, Instability};
 use phase::scene::{Contact, Friction, Hertz, Integrator, Mindlin, Radii, Scene, StartSphere};
 
@@ -42,7 +42,7 @@ fn with_restitution(mut scene: Scene, value: f64) -> Scene {
 
 /// Relative speed (m/s) after an impact.
 fn rebound(scene: &Scene) -> Result<f64, Instability> {
-    let mut simulation = Simulation::new(scene).unwrap();
+    let mut simulation = DemSimulation::new(scene).unwrap();
     collide(&mut simulation)?;
     let velocity = &simulation.particles().velocity;
     Ok(velocity[1].x - velocity[0].x)
@@ -98,7 +98,7 @@ fn steel_that_strikes_steel_askew_keeps_its_momenta_and_gains_no_energy() {
                 1e-6,
             );
             let scene = at(&with_restitution(of_steel(scene), 0.8), integrator, 0.2);
-            let mut simulation = Simulation::new(&scene).unwrap();
+            let mut simulation = DemSimulation::new(&scene).unwrap();
             let before = simulation.particles().clone();
             let seen = super::bench::watch(&mut simulation, &scene, 20_000, 2000).unwrap();
             assert!(seen.most <= 1.0 + 1e-3 && seen.end < 0.9, "{seen:?}");
@@ -203,7 +203,7 @@ fn almost_coincident_centres_part_where_the_guard_allows_it() {
         let mut scene = at(&pressed(1e-12), integrator, 0.1);
         assert_eq!(run(&scene, 10, 10).unwrap_err().guard, Guard::Overlap);
         scene.dem.guards.overlap = 2.5;
-        let mut simulation = Simulation::new(&scene).unwrap();
+        let mut simulation = DemSimulation::new(&scene).unwrap();
         let seen = super::bench::watch(&mut simulation, &scene, 1000, 100).unwrap();
         assert!((seen.end - 1.0).abs() < 0.01, "{seen:?}");
         let particles = simulation.particles();
@@ -220,7 +220,7 @@ fn a_thousandfold_mass_is_struck_as_momentum_demands() {
     for integrator in Integrator::ALL {
         for (part, accuracy) in [(0.1, 1e-3), (LIMIT, GAIN_AT_THE_LIMIT - 1.0)] {
             let scene = at(&scene, integrator, part);
-            let mut simulation = Simulation::new(&scene).unwrap();
+            let mut simulation = DemSimulation::new(&scene).unwrap();
             let before = momentum(simulation.particles());
             simulation.advance((3e-3 / scene.time.dt) as u64).unwrap();
             let after = simulation.particles();

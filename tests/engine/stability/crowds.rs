@@ -5,7 +5,7 @@ use super::bench::{
 };
 use super::contacts::of_steel;
 use crate::scenes::{cluster, damped};
-use phase::dem::{BuildError, Simulation};
+use phase::dem::{DemBuildError, DemSimulation};
 use phase::scene::{
     Contact, ContactDrag, Coulomb, Friction, Hertz, Integrator, Linear, Mindlin, Scene, Start,
     StartSphere, Tank,
@@ -60,7 +60,7 @@ pub(crate) fn column(radii: &[f64], friction: Option<Friction>) -> Scene {
 }
 
 /// Advances by so many steps; how far a sphere came at most (radii).
-fn largest_way(simulation: &mut Simulation, steps: u64) -> f64 {
+fn largest_way(simulation: &mut DemSimulation, steps: u64) -> f64 {
     let before = simulation.particles().position.clone();
     simulation.advance(steps).unwrap();
     let after = &simulation.particles().position;
@@ -70,7 +70,7 @@ fn largest_way(simulation: &mut Simulation, steps: u64) -> f64 {
 
 /// Largest way of a sphere (radii) and largest speed (m/s) at the end of so many steps.
 pub(crate) fn drift(scene: &Scene, steps: u64) -> [f64; 2] {
-    let mut simulation = Simulation::new(scene).unwrap();
+    let mut simulation = DemSimulation::new(scene).unwrap();
     let way = largest_way(&mut simulation, fair(scene, steps));
     let speeds = simulation.particles().velocity.iter().map(|it| it.norm());
     [way, speeds.fold(0.0, f64::max)]
@@ -142,7 +142,7 @@ pub(crate) fn leaning(count: u32, friction: Friction) -> Scene {
 
 /// Largest way (radii) of a sphere within so many steps, after as many times `rest`.
 pub(crate) fn creep(scene: &Scene, rest: u64, steps: u64) -> f64 {
-    let mut simulation = Simulation::new(scene).unwrap();
+    let mut simulation = DemSimulation::new(scene).unwrap();
     simulation.advance(fair(scene, rest * steps)).unwrap();
     largest_way(&mut simulation, fair(scene, steps))
 }
@@ -225,7 +225,7 @@ pub(crate) fn dropped(count: usize, friction: Option<Friction>) -> Scene {
 /// Asserts that a crowd falls, and neither gains energy nor is pressed.
 #[track_caller]
 pub(crate) fn falls_soundly(scene: &Scene, steps: u64, looks: u64) {
-    let mut simulation = Simulation::new(scene).unwrap();
+    let mut simulation = DemSimulation::new(scene).unwrap();
     let seen = watch(&mut simulation, scene, steps, looks).unwrap();
     assert!(seen.most < 1.0 && seen.overlap < 0.6, "{seen:?}");
     assert!(seen.end < 0.6, "{seen:?}");
@@ -256,7 +256,7 @@ fn a_heap_of_steel_at_full_stiffness_loses_energy() {
             (*restitution, *dissipation_time) = (Some(0.6), None);
         }
         let scene = crowded(&scene, integrator, LIMIT);
-        let mut simulation = Simulation::new(&scene).unwrap();
+        let mut simulation = DemSimulation::new(&scene).unwrap();
         let seen = watch(&mut simulation, &scene, 40_000, 100).unwrap();
         assert!(
             seen.most < 1.0 && seen.overlap < 0.01 && seen.end < 0.9,
@@ -296,7 +296,10 @@ fn a_tank_that_is_too_small_is_refused() {
     if let Start::Random { z_max, .. } = &mut scene.start {
         *z_max = 2.0 * RADIUS;
     }
-    let refused = Simulation::new(&scene).err();
-    let expected = matches!(refused, Some(BuildError::Start(StartError::NoRoom { .. })));
+    let refused = DemSimulation::new(&scene).err();
+    let expected = matches!(
+        refused,
+        Some(DemBuildError::Start(StartError::NoRoom { .. }))
+    );
     assert!(expected, "{refused:?}");
 }

@@ -3,7 +3,7 @@
 use super::bench::{LIMIT, RADIUS, at, crowded, downward, moving, watch};
 use super::crowds::dropped;
 use crate::scenes::{cluster, damped, momentum, scales};
-use phase::dem::Simulation;
+use phase::dem::DemSimulation;
 use phase::record::Guard;
 use phase::scene::{
     Contact, Friction, Hertz, Integrator, Mindlin, Scene, StartSphere, Swirl, Tank,
@@ -17,7 +17,7 @@ fn unguarded(mut scene: Scene) -> Scene {
 
 /// Whether a sphere came out behind the one it was shot at; nothing where the run was reported.
 fn passes(scene: &Scene, speed: f64) -> Option<bool> {
-    let mut simulation = Simulation::new(scene).unwrap();
+    let mut simulation = DemSimulation::new(scene).unwrap();
     let steps = (0.06 / speed / scene.time.dt).ceil() as u64;
     if let Err(broken) = simulation.advance(steps) {
         let expected = [Guard::Displacement, Guard::Overlap];
@@ -56,7 +56,7 @@ fn fast_spheres_bounce_back_or_are_reported() {
 
 /// How far a centre comes behind floor or wall (radii) before the run ends or 1000 steps are over.
 fn farthest_behind_walls(scene: &Scene) -> f64 {
-    let mut simulation = Simulation::new(scene).unwrap();
+    let mut simulation = DemSimulation::new(scene).unwrap();
     let mut farthest = f64::MIN;
     for _ in 0..1000 {
         if simulation.advance(1).is_err() {
@@ -128,7 +128,7 @@ fn whirled(young_modulus: f64) -> Scene {
 fn air_at_two_thousand_radians_per_second() {
     for integrator in Integrator::ALL {
         let scene = crowded(&whirled(2e10), integrator, LIMIT);
-        let mut simulation = Simulation::new(&scene).unwrap();
+        let mut simulation = DemSimulation::new(&scene).unwrap();
         // After these the energy changes by 1e-8 of itself in ten thousand steps.
         let seen = watch(&mut simulation, &scene, 40_000, 200).unwrap();
         assert!(seen.overlap < 0.5, "{seen:?}");
@@ -143,7 +143,7 @@ fn air_at_two_thousand_radians_per_second() {
             );
         }
         let soft = crowded(&whirled(1e6), integrator, LIMIT);
-        let broken = Simulation::new(&soft)
+        let broken = DemSimulation::new(&soft)
             .unwrap()
             .advance(200_000)
             .unwrap_err();
@@ -163,7 +163,7 @@ fn without_gravity_and_friction_nothing_but_impacts_changes_a_motion() {
             moving([0.0, 0.05, 0.0], [0.0, 2.0, 1.0]),
         ];
         let scene = at(&cluster(spheres, None, 1e-6), integrator, LIMIT);
-        let mut simulation = Simulation::new(&scene).unwrap();
+        let mut simulation = DemSimulation::new(&scene).unwrap();
         let before = simulation.particles().clone();
         let steps = 1000;
         simulation.advance(steps).unwrap();
@@ -186,7 +186,7 @@ fn one_sphere_falls_as_it_must() {
         let mut scene = cluster(vec![moving([0.0; 3], [1.0, 0.0, 2.0])], None, 1e-6);
         scene.dem.effects.gravity = downward();
         let scene = at(&scene, integrator, 0.1);
-        let mut simulation = Simulation::new(&scene).unwrap();
+        let mut simulation = DemSimulation::new(&scene).unwrap();
         simulation.advance(1000).unwrap();
         let (time, centre) = (1000.0 * scene.time.dt, simulation.particles().position[0]);
         let error = centre.z - (2.0 - 4.9 * time) * time;

@@ -5,7 +5,7 @@ use super::crowds::{
     MINDLIN, column, column_frictions, creep, drift, dropped, falls_soundly, leaning,
 };
 use crate::scenes::{cluster, momentum, scales};
-use phase::dem::Simulation;
+use phase::dem::DemSimulation;
 use phase::scene::{Integrator, Scene, StartSphere, Tank};
 
 /// Tries all integrators at the same time.
@@ -82,7 +82,7 @@ fn isolated() -> Scene {
 
 fn keeps_its_energy(integrator: Integrator, steps: u64) {
     let scene = at(&bouncing(), integrator, 0.1);
-    let mut simulation = Simulation::new(&scene).unwrap();
+    let mut simulation = DemSimulation::new(&scene).unwrap();
     let seen = watch(&mut simulation, &scene, steps, 1000).unwrap();
     assert!(
         seen.most < 1.1 && seen.end > 0.9,
@@ -92,7 +92,7 @@ fn keeps_its_energy(integrator: Integrator, steps: u64) {
 
 fn keeps_its_momentum(integrator: Integrator, steps: u64) {
     let scene = at(&isolated(), integrator, LIMIT);
-    let mut simulation = Simulation::new(&scene).unwrap();
+    let mut simulation = DemSimulation::new(&scene).unwrap();
     let before = momentum(simulation.particles());
     let (linear, _) = scales(simulation.particles());
     simulation.advance(steps).unwrap();

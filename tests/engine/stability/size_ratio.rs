@@ -6,7 +6,7 @@
 //! inwards adds up, the sphere is wedged in, and goes on around the neck.
 
 use super::bench::{LIMIT, at, downward, moving};
-use phase::dem::Simulation;
+use phase::dem::DemSimulation;
 use phase::scene::{
     Contact, DemScene, Effects, FixedSphere, Friction, Geometry, Hertz, Integrator, Mindlin, Radii,
     Scene, Shape, Spheres, Start, Time,
@@ -77,7 +77,7 @@ fn neck(ratio: f64) -> Scene {
 
 /// Whether the sphere falls off within 0.3 s: farther down than anything can hold it.
 fn falls(scene: &Scene) -> bool {
-    let mut simulation = Simulation::new(scene).unwrap();
+    let mut simulation = DemSimulation::new(scene).unwrap();
     (0..30).any(|_| {
         simulation.advance((0.01 / scene.time.dt) as u64).unwrap();
         simulation.particles().position[2].z < -LARGE

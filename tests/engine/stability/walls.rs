@@ -5,7 +5,7 @@ use super::bench::{
     run, watch,
 };
 use crate::scenes::{cluster, damped, energy};
-use phase::dem::Simulation;
+use phase::dem::DemSimulation;
 use phase::scene::{
     Coulomb, FixedSphere, Friction, Geometry, Integrator, Mindlin, Scene, StartSphere, Swirl, Tank,
 };
@@ -39,7 +39,7 @@ fn frictions() -> [Friction; 2] {
 
 /// Energy after one grazing hit on an undamped wall, over that before.
 fn hit(scene: &Scene) -> f64 {
-    let mut simulation = Simulation::new(scene).unwrap();
+    let mut simulation = DemSimulation::new(scene).unwrap();
     let before = energy(&mut simulation, 0.0);
     collide(&mut simulation).unwrap();
     energy(&mut simulation, 0.0) / before
@@ -100,7 +100,7 @@ fn floor_and_very_large_sphere_answer_alike() {
             let scene = damped(cluster(vec![sphere.clone()], Some(friction), 1e-6), 1e-4);
             let mut scene = at(&scene, integrator, 0.2);
             let after = |scene: &Scene| {
-                let mut simulation = Simulation::new(scene).unwrap();
+                let mut simulation = DemSimulation::new(scene).unwrap();
                 collide(&mut simulation).unwrap();
                 let last = simulation.particles().len() - 1;
                 let particles = simulation.particles();
@@ -139,7 +139,7 @@ fn a_sphere_on_the_axis_stays_on_it() {
         scene.dem.effects.swirl = Some(Swirl { omega: 12.0 });
         scene.dem.effects.drag = Some(toml::from_str("law = 'constant'\nlinear = 1e-3").unwrap());
         let scene = crowded(&damped(scene, 1e-4), integrator, LIMIT);
-        let mut simulation = Simulation::new(&scene).unwrap();
+        let mut simulation = DemSimulation::new(&scene).unwrap();
         let seen = watch(&mut simulation, &scene, 20_000, 200).unwrap();
         let centre = simulation.particles().position[0];
         assert_eq!([centre.x, centre.y], [0.0; 2]);
@@ -166,7 +166,7 @@ fn spheres_come_to_rest_at_the_rim_and_in_the_corner() {
         {
             let scene = damped(tank(vec![start], Some(friction)), 1e-4);
             let scene = crowded(&scene, integrator, LIMIT);
-            let mut simulation = Simulation::new(&scene).unwrap();
+            let mut simulation = DemSimulation::new(&scene).unwrap();
             let seen = watch(&mut simulation, &scene, 20_000, 2000).unwrap();
             assert!(seen.most <= 1.0 + 1e-3 && seen.overlap < 0.5, "{seen:?}");
             let speed = simulation.particles().velocity[0].norm();
@@ -222,7 +222,7 @@ fn fixed_spheres_reach_into_walls_as_they_like() {
             door: Vec::new(),
         });
         let scene = at(&scene, integrator, LIMIT);
-        let mut simulation = Simulation::new(&scene).unwrap();
+        let mut simulation = DemSimulation::new(&scene).unwrap();
         simulation.advance(3).unwrap();
         assert_eq!(simulation.elastic_energy(), 0.0, "{integrator:?}");
     }

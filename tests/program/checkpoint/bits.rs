@@ -3,7 +3,7 @@
 use super::bench::whole;
 use crate::scenes::{frictions, state, tank, water};
 use crate::support::{Workplace, silo_file};
-use phase::dem::Simulation;
+use phase::dem::DemSimulation;
 use phase::record::{MilestoneKind, Outcome, RunRecord};
 use phase::resume::{Checkpoints, Ending};
 use phase::run::Run;
@@ -232,15 +232,15 @@ fn a_pile_needs_its_histories() {
         Integrator::SymplecticEuler,
     );
     (scene.dem.effects.updraught, scene.dem.effects.swirl) = (None, None);
-    let mut simulation = Simulation::new(&scene).unwrap();
+    let mut simulation = DemSimulation::new(&scene).unwrap();
     simulation.advance(3000).unwrap();
     let saved = simulation.state().into_owned();
 
     // All that symplectic Euler goes on from but for the histories.
     let mut bare = scene.clone();
     bare.start = state(&simulation).start(simulation.radius());
-    let mut forgetful = Simulation::new(&bare).unwrap();
-    let mut restored = Simulation::new(&scene).unwrap();
+    let mut forgetful = DemSimulation::new(&bare).unwrap();
+    let mut restored = DemSimulation::new(&scene).unwrap();
     restored.restore(saved).unwrap();
     for _ in 0..5 {
         simulation.advance(40).unwrap();
@@ -256,13 +256,13 @@ fn a_pile_needs_its_histories() {
 fn a_state_that_does_not_fit_is_refused() {
     let [plain, mindlin] =
         [0, 3].map(|law| tank(frictions()[law].clone(), Integrator::SymplecticEuler));
-    let fresh = || Simulation::new(&mindlin).unwrap();
+    let fresh = || DemSimulation::new(&mindlin).unwrap();
     let mut other_walls = mindlin.clone();
     other_walls.tank.as_mut().unwrap().floor = None;
     for saved in [
-        Simulation::new(&silo(None, Integrator::SymplecticEuler)).unwrap(),
-        Simulation::new(&other_walls).unwrap(),
-        Simulation::new(&plain).unwrap(),
+        DemSimulation::new(&silo(None, Integrator::SymplecticEuler)).unwrap(),
+        DemSimulation::new(&other_walls).unwrap(),
+        DemSimulation::new(&plain).unwrap(),
     ] {
         let mut simulation = fresh();
         assert!(simulation.restore(saved.state()).is_err());
@@ -277,7 +277,7 @@ fn a_state_that_does_not_fit_is_refused() {
 #[test]
 fn a_list_of_other_spheres_is_refused() {
     let mut scene = tank(None, Integrator::SymplecticEuler);
-    let simulation = Simulation::new(&scene).unwrap();
+    let simulation = DemSimulation::new(&scene).unwrap();
     scene.start = state(&simulation).start(simulation.radius());
     let place = Workplace::new();
     let path = place.path("run.checkpoint");

@@ -4,8 +4,8 @@ use crate::dem::neighbours::NearPair;
 use crate::dem::system::wall_contacts::NearSphere;
 use crate::dem::walls::TankWall;
 
-/// Spheres that may touch one another within a step, directly or through others, and all that they
-/// may touch.
+/// Spheres that may touch one another within a step, directly or through others, and their possible
+/// contacts.
 #[derive(Default)]
 pub(super) struct Island {
     /// Their indices, in rising order.
@@ -19,7 +19,7 @@ pub(super) struct Island {
 pub(in crate::dem::system) struct IslandContacts {
     /// Pairs, in the order of the list.
     pub(in crate::dem::system) pairs: Vec<NearPair>,
-    /// Where the histories of these pairs are among those of all near pairs.
+    /// Entries of these pairs in the histories of all near pairs.
     pub(in crate::dem::system) entries: Vec<u32>,
     /// Spheres near each wall.
     pub(in crate::dem::system) walls: [Vec<NearSphere>; TankWall::MOST],
@@ -48,7 +48,7 @@ pub(super) struct Islands {
 }
 
 impl Islands {
-    /// Makes every sphere an island of its own, which touches nothing.
+    /// Makes every sphere an island of its own without contacts.
     pub(super) fn reset(&mut self, spheres: usize) {
         self.parent.clear();
         self.parent.extend(0..spheres as u32);

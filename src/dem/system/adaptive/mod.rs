@@ -8,9 +8,9 @@ mod workspace;
 pub(super) use self::islands::IslandContacts;
 pub(super) use self::workspace::Workspace;
 
-use self::workspace::Start;
+use self::workspace::StepStart;
 use super::moves::without_least;
-use super::{Engine, Setup, System};
+use super::{Engine, System, SystemSetup};
 use crate::forces::contact::NormalLaw;
 use crate::forces::friction::TangentialLaw;
 use crate::particles::Particles;
@@ -22,14 +22,14 @@ const ATTEMPTS: u32 = 20;
 
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     /// One step of synchronised Verlet, cut into as many sub-steps as the contacts need, for each
-    /// group of touching spheres by itself. All other spheres move in one step. Forces other than
-    /// those of contacts are evaluated in the middle of the whole step.
+    /// group of touching spheres by itself. All other spheres move in one step. All forces but
+    /// contact forces are evaluated in the middle of the whole step.
     ///
     /// A sphere belongs to a group if it touches another one, or may do so within the step
     /// according to its predicted displacement. If contacts move a sphere farther, the step is
     /// repeated with twice that distance. So no contact is missed.
     pub(super) fn adaptive_verlet(&mut self) -> Result<(), Instability> {
-        // Taken out, because the methods of a step borrow the whole system beside it.
+        // Taken out, because the methods of a step borrow the whole system.
         let mut work = std::mem::take(&mut self.workspace);
         let result = self.adaptive_step(&mut work);
         self.workspace = work;
@@ -72,7 +72,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     }
 
     fn check_all_speeds(&mut self) -> Result<(), Instability> {
-        let Setup { limits, dt, .. } = &self.setup;
+        let SystemSetup { limits, dt, .. } = &self.setup;
         let Particles {
             velocity, radius, ..
         } = &self.particles;
@@ -138,7 +138,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         self.refresh()
     }
 
-    fn keep_histories(&self, start: &mut Start<T::History>) {
+    fn keep_histories(&self, start: &mut StepStart<T::History>) {
         if Self::HAS_HISTORY {
             start.pair_history.clone_from(&self.pair_history);
             for (kept, wall) in start.wall_history.iter_mut().zip(&self.walls) {
@@ -150,7 +150,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         }
     }
 
-    fn put_back_histories(&mut self, start: &Start<T::History>) {
+    fn put_back_histories(&mut self, start: &StepStart<T::History>) {
         if Self::HAS_HISTORY {
             self.pair_history.copy_from_slice(&start.pair_history);
             for (wall, kept) in self.walls.iter_mut().zip(&start.wall_history) {

@@ -3,7 +3,7 @@
 use super::islands::{Island, IslandContacts};
 use super::kick;
 use super::workspace::Workspace;
-use crate::dem::bodies::Spheres;
+use crate::dem::bodies::SphereRows;
 use crate::dem::system::System;
 use crate::dem::system::candidates::Candidates;
 use crate::dem::system::contact_laws::Loading;
@@ -90,8 +90,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             work.held.torque.extend(torques);
         }
         self.add_island_forces(&island.contacts, histories);
-        // Forces must remain those of the last middle. An overlap that is too deep is found by the
-        // next step.
+        // Forces must remain as evaluated at the last middle. The next step finds an overlap that
+        // is too deep.
         let particles = &mut self.particles;
         for (i, &force) in spheres().zip(&work.held.force) {
             particles.force[i] = force;
@@ -146,7 +146,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         histories: &mut IslandHistories<T::History>,
     ) {
         let settings = self.settings();
-        let mut spheres = Spheres::new(&mut self.particles, &[]);
+        let mut spheres = SphereRows::new(&mut self.particles, &[]);
         let (partners, [force, torque]) = Partners::of(&mut spheres, &self.earlier);
         let sums = Sums {
             first: 0,
@@ -164,7 +164,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
 }
 
 /// Copies of the histories of an island's contacts. The kernels expect the history of each contact
-/// at the index of the contact, and the originals lie among those of all contacts.
+/// at the index of the contact, while the originals are stored among the histories of all contacts.
 struct IslandHistories<H> {
     pairs: Vec<H>,
     walls: [Vec<H>; TankWall::MOST],
@@ -226,9 +226,9 @@ impl<H: Copy> IslandHistories<H> {
 mod tests {
     use super::*;
 
-    /// Symptom: springs of an island of adaptive Verlet were those of other contacts. Cause: the
-    /// histories of some contacts were read by their places among these contacts, not by their
-    /// entries among all.
+    /// Symptom: contacts of an island of adaptive Verlet read the springs of other contacts. Cause:
+    /// the histories of some contacts were read by their index in the island, not by their entry in
+    /// the whole list.
     #[test]
     fn some_contacts_find_their_histories_among_all() {
         let contacts = IslandContacts {

@@ -15,10 +15,10 @@ pub(super) const HELD: f64 = 0.6;
 /// within it.
 const LEEWAY: f64 = 1e-4;
 
-/// Buffers of a step of the scheme. Nothing in them is needed from step to step.
+/// Buffers of a step of the scheme. They carry nothing from one step to the next.
 #[derive(Default)]
 pub(in crate::dem::system) struct Workspace<H> {
-    pub(super) start: Start<H>,
+    pub(super) start: StepStart<H>,
     pub(super) held: Held,
     /// Forces and torques of the effects in the middle of the step.
     pub(super) force: Vec<Vector>,
@@ -27,13 +27,13 @@ pub(in crate::dem::system) struct Workspace<H> {
     /// and how far the sphere may move (m).
     pub(super) gain: Vec<f64>,
     pub(super) reach: Vec<f64>,
-    /// Whether a sphere went farther in an earlier attempt than was foreseen: it collides.
+    /// Whether a sphere went farther in an earlier attempt than predicted: it collides.
     strayed: Vec<bool>,
     /// The largest displacement of each sphere so far, squared (m2).
     way_squared: Vec<f64>,
     pub(super) islands: Islands,
-    /// Squared frequency (1/s2) and damping rate (1/s) of each sphere at its contacts; of contacts
-    /// that are held, as slow as to be followed at the resolution of all.
+    /// Squared frequency (1/s2) and damping rate (1/s) of each sphere at its contacts; contacts
+    /// that are held count as slow as if all were followed at the same resolution.
     pub(super) stiffness: Vec<f64>,
     pub(super) damping: Vec<f64>,
 }
@@ -41,17 +41,17 @@ pub(in crate::dem::system) struct Workspace<H> {
 /// Velocities and forces that are put back after a prediction.
 #[derive(Default)]
 pub(super) struct Held {
-    /// Those of every sphere.
+    /// For every sphere.
     pub(super) velocity: Vec<Vector>,
     pub(super) spin: Vec<Vector>,
-    /// Those of the spheres of an island.
+    /// For the spheres of an island.
     pub(super) force: Vec<Vector>,
     pub(super) torque: Vec<Vector>,
 }
 
 /// The spheres at the start of a step.
 #[derive(Default)]
-pub(super) struct Start<H> {
+pub(super) struct StepStart<H> {
     pub(super) position: Vec<Vector>,
     pub(super) velocity: Vec<Vector>,
     pub(super) spin: Vec<Vector>,
@@ -63,7 +63,7 @@ pub(super) struct Start<H> {
     pub(super) rolling: RollingSprings,
 }
 
-impl<H: Copy> Start<H> {
+impl<H: Copy> StepStart<H> {
     pub(super) fn keep(&mut self, particles: &Particles) {
         self.position.clone_from(&particles.position);
         self.velocity.clone_from(&particles.velocity);
@@ -109,7 +109,7 @@ impl<H> Workspace<H> {
         self.start.force[i].norm() * inverse_mass
     }
 
-    /// Whether one of these spheres went farther than was foreseen.
+    /// Whether one of these spheres went farther than predicted.
     pub(super) fn any_strayed(&self, spheres: &[usize]) -> bool {
         spheres.iter().any(|&i| self.strayed[i])
     }

@@ -5,7 +5,7 @@
 use super::ContactBlock;
 use crate::dem::system::contact_laws::Laws;
 use crate::dem::system::partners::Partners;
-use crate::dem::system::touching::{Entries, Lanes};
+use crate::dem::system::touching::{ContactLanes, Entries};
 use crate::dem::system::wall_contacts::NearSphere;
 use crate::forces::contact::NormalLaw;
 use crate::forces::friction::{History, TangentialLaw};
@@ -22,7 +22,7 @@ impl<H: History> ContactBlock<H> {
     >(
         &mut self,
         simd: S,
-        pairs: &Lanes<'_>,
+        pairs: &ContactLanes<'_>,
         histories: &[H],
         partners: &Partners<'_>,
     ) {
@@ -55,7 +55,7 @@ impl<H: History> ContactBlock<H> {
     fn gather_motion<S: Simd, T: TangentialLaw<History = H>>(
         &mut self,
         simd: S,
-        pairs: &Lanes<'_>,
+        pairs: &ContactLanes<'_>,
         partners: &Partners<'_>,
     ) {
         // All slices have one length, so that each index is checked once.
@@ -107,7 +107,7 @@ impl<H: History> ContactBlock<H> {
 
     /// Copies the offsets, if they are known. Returns whether they are.
     #[inline(always)]
-    fn copy_offsets<S: Simd>(&mut self, simd: S, pairs: &Lanes<'_>) -> bool {
+    fn copy_offsets<S: Simd>(&mut self, simd: S, pairs: &ContactLanes<'_>) -> bool {
         let Some(offset) = pairs.offset else {
             return false;
         };
@@ -124,7 +124,7 @@ impl<H: History> ContactBlock<H> {
     #[inline(always)]
     fn gather_properties<N: NormalLaw, T: TangentialLaw<History = H>>(
         &mut self,
-        pairs: &Lanes<'_>,
+        pairs: &ContactLanes<'_>,
         partners: &Partners<'_>,
     ) {
         self.properties[0].gather::<N, T>(partners, |k| pairs.pairs[k].i());
@@ -143,7 +143,7 @@ impl<H: History> ContactBlock<H> {
     fn gather_earlier_motion<S: Simd>(
         &mut self,
         simd: S,
-        pairs: &Lanes<'_>,
+        pairs: &ContactLanes<'_>,
         partners: &Partners<'_>,
     ) {
         let (pairs, earlier) = (pairs.pairs, partners.earlier);

@@ -2,14 +2,14 @@
 
 use super::ContactBlock;
 use crate::dem::system::sums::Sums;
-use crate::dem::system::touching::{Entries, Lanes};
+use crate::dem::system::touching::{ContactLanes, Entries};
 use crate::dem::system::wall_contacts::NearSphere;
 use crate::forces::friction::{History, TangentialLaw};
 use crate::particles::block::{BLOCK, ROWS};
 use fearless_simd::{Simd, f64x4};
 
 /// Vectors of eight contacts.
-type Eight<S> = [f64x4<S>; ROWS];
+type EightRows<S> = [f64x4<S>; ROWS];
 
 impl<H: History> ContactBlock<H> {
     /// Adds forces and torques to the sums of both spheres of each pair, one after the other.
@@ -17,7 +17,7 @@ impl<H: History> ContactBlock<H> {
     pub(in crate::dem::system) fn scatter_to_pairs<S: Simd, T: TangentialLaw<History = H>>(
         &mut self,
         simd: S,
-        pairs: &Lanes<'_>,
+        pairs: &ContactLanes<'_>,
         sums: &mut Sums<'_>,
     ) {
         self.clear_from(pairs.count);
@@ -32,7 +32,7 @@ impl<H: History> ContactBlock<H> {
     fn scatter<S: Simd, T: TangentialLaw<History = H>, const ALIKE: bool>(
         &self,
         simd: S,
-        pairs: &Lanes<'_>,
+        pairs: &ContactLanes<'_>,
         mut sums: Sums<'_>,
     ) {
         for at in (0..BLOCK).step_by(ROWS) {
@@ -75,7 +75,7 @@ impl<H: History> ContactBlock<H> {
         &self,
         simd: S,
         at: usize,
-    ) -> (Eight<S>, Eight<S>) {
+    ) -> (EightRows<S>, EightRows<S>) {
         let force = self.force.rows(simd, at);
         let torque = match T::ROTATES {
             true => self.torque[0].rows(simd, at),

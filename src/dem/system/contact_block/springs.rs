@@ -3,7 +3,7 @@
 use super::{ContactBlock, NOT_DEEP, if_touching, store};
 use crate::dem::system::contact_laws::LoadedContact;
 use crate::forces::friction::{
-    Change, History, Keeps, LoadedSpring, Spring, TangentialLaw, Turning, arm,
+    ForceChange, History, Keeps, LoadedSpring, Spring, TangentialLaw, Turning, arm,
 };
 use crate::particles::block::{BLOCK, ROWS};
 use crate::particles::math::inverse_square_root;
@@ -89,14 +89,14 @@ impl<H: History> ContactBlock<H> {
     }
 
     /// Turns springs and turning points into the planes across the normals, by `turned`, and
-    /// changes the forces of springs with the contact radius (m), in a separate loop, as the roots
-    /// are taken in one.
+    /// changes the forces of springs with the contact radius (m), in a separate loop, like the
+    /// roots.
     #[inline(always)]
     pub(super) fn bring_springs(
         &mut self,
         keeps: Keeps,
         radius: impl Fn(&Self, usize) -> f64,
-        turned: impl Fn(&Self, usize, Spring, Change) -> Spring,
+        turned: impl Fn(&Self, usize, Spring, ForceChange) -> Spring,
     ) {
         if !Self::HAS_HISTORY {
             return;
@@ -109,14 +109,14 @@ impl<H: History> ContactBlock<H> {
             }
         } else {
             for k in 0..BLOCK {
-                let force = turned(self, k, self.spring(k), Change::NONE).force;
+                let force = turned(self, k, self.spring(k), ForceChange::NONE).force;
                 self.spring.set(k, force);
             }
         }
         if H::TURNS {
             for k in 0..BLOCK {
                 let force = self.turning_force.vector(k);
-                let force = turned(self, k, Spring { force }, Change::NONE).force;
+                let force = turned(self, k, Spring { force }, ForceChange::NONE).force;
                 self.turning_force.set(k, force);
             }
         }

@@ -1,4 +1,4 @@
-//! Partial slip beside closed forms and beside springs that slide each by itself.
+//! Partial slip compared with closed forms and with springs that slide independently.
 
 use super::*;
 
@@ -52,12 +52,12 @@ fn touch(overlap: f64, way: f64) -> Touch {
 
 /// A contact that is moved.
 #[derive(Default)]
-struct Contact {
+struct MovedContact {
     history: SlipHistory,
     place: f64,
 }
 
-impl Contact {
+impl MovedContact {
     /// Moves it to a place (m) at an overlap (m). Returns the force on the sphere (N).
     fn go_to(&mut self, place: f64, overlap: f64) -> f64 {
         let touch = touch(overlap, place - self.place);
@@ -71,7 +71,7 @@ impl Contact {
     }
 }
 
-/// The closed form (Mindlin and Deresiewicz, 1953), with a = 4.272e-5 m of a sphere at a wall.
+/// The closed form (Mindlin and Deresiewicz, 1953), with a = 4.272e-5 m for a sphere at a wall.
 #[test]
 fn a_cycle_loses_what_the_closed_form_says() {
     let (normal, share) = (1.0, 0.9);
@@ -80,7 +80,7 @@ fn a_cycle_loses_what_the_closed_form_says() {
     let stiffness = law().stiffness(depth, RADIUS);
     let reach = 1.5 * limit / stiffness * (1.0 - two_thirds(1.0 - share));
     for steps in [4, 40, 4000] {
-        let mut contact = Contact::default();
+        let mut contact = MovedContact::default();
         let (mut lost, mut before, mut largest) = (0.0, 0.0, 0.0_f64);
         for step in 0..=5 * steps {
             let turn = f64::from(step) / f64::from(steps);
@@ -99,16 +99,15 @@ fn a_cycle_loses_what_the_closed_form_says() {
             before = force;
         }
         assert!((largest / (share * limit) - 1.0).abs() < 1e-9, "{largest}");
-        // The sum of trapezia is all that depends on the steps.
+        // Only the sum of trapezia depends on the steps.
         let error = (lost / 1.601003e-8 - 1.0).abs();
         let allowed = if steps == 4000 { 1e-5 } else { 0.3 };
         assert!(error < allowed, "{steps} steps: {lost}");
     }
 }
 
-/// A contact as a row of springs that stick and slide each by itself, which is exact for any
-/// path along one line (Popov and Hess, Method of Dimensionality Reduction, Springer (2015),
-/// chapter 5).
+/// A contact as a row of springs that stick and slide independently, which is exact for any path
+/// along one line (Popov and Hess, Method of Dimensionality Reduction, Springer (2015), chapter 5).
 fn foundation(path: &[(f64, f64)]) -> Vec<f64> {
     const SPRINGS: usize = 20_000;
     let half_width = 1.2e-4;
@@ -143,7 +142,7 @@ fn path(corners: &[(f64, f64)]) -> Vec<(f64, f64)> {
 }
 
 /// Name, largest error (mu F_n), corners of the path.
-type Case<'a> = (&'a str, f64, &'a [(f64, f64)]);
+type PathCase<'a> = (&'a str, f64, &'a [(f64, f64)]);
 
 #[test]
 fn it_follows_independent_springs_where_the_normal_force_changes_too() {
@@ -155,7 +154,7 @@ fn it_follows_independent_springs_where_the_normal_force_changes_too() {
         [(forth, 1.0), (forth - 0.05, 1.0)]
     });
     let teeth: Vec<_> = [(0.0, 1.0)].into_iter().chain(teeth).collect();
-    let cases: [Case<'_>; 11] = [
+    let cases: [PathCase<'_>; 11] = [
         ("pressed, then loaded", 1e-6, &[(0.0, 1.0), (0.7, 1.0)]),
         (
             "loaded obliquely, sticking",
@@ -208,7 +207,7 @@ fn it_follows_independent_springs_where_the_normal_force_changes_too() {
         let scaled: Vec<_> = corners.map(|(x, d)| (x * full, d * depth)).collect();
         let path = path(&scaled);
         let exact = foundation(&path);
-        let mut contact = Contact::default();
+        let mut contact = MovedContact::default();
         let scale = COEFFICIENT * normal_force(depth);
         let mut worst = 0.0_f64;
         for (&(place, depth), exact) in path.iter().zip(exact) {
@@ -223,7 +222,7 @@ fn its_energy_is_what_it_gives_back() {
     let depth = overlap(1.0);
     let stiffness = law().stiffness(depth, RADIUS);
     let full = 1.5 * COEFFICIENT / stiffness;
-    let mut contact = Contact::default();
+    let mut contact = MovedContact::default();
     contact.go_to(0.0, depth);
     contact.go_to(0.8 * full, depth);
     let stored = law().energy(&contact.history, depth, RADIUS);
