@@ -129,14 +129,22 @@ pub(super) struct Diagram<'a, P = Point> {
 impl Diagram<'_> {
     /// Draws it with the curves of the critical rotation.
     pub(super) fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
-        let panels = self.grid.panels.iter();
-        let curves: Vec<Vec<Curve>> = panels
-            .map(|panel| {
-                let scene = source.sweep.scene_of_variant(self.grid.variant(panel));
-                critical::curves(scene, self.grid, panel)
-            })
-            .collect();
-        let entries = Curve::entries(&curves, critical::WORDS);
+        let curves = |panel: &Panel| {
+            let scene = source.sweep.scene_of_variant(self.grid.variant(panel));
+            critical::curves(scene, self.grid, panel)
+        };
+        self.draw_with(source, &curves, critical::WORDS)
+    }
+
+    /// Draws it with curves of each panel, of which these words tell in the legend.
+    pub(super) fn draw_with(
+        &self,
+        source: &Source<'_>,
+        curves: &dyn Fn(&Panel) -> Vec<Curve>,
+        words: [&str; 2],
+    ) -> Result<Svg, PlotError> {
+        let curves: Vec<Vec<Curve>> = self.grid.panels.iter().map(curves).collect();
+        let entries = Curve::entries(&curves, words);
         let title = source.sweep.title.as_deref();
         let body = self.body(title, &curves, entries)?;
         Ok(Svg::new(self.name, source, &body))

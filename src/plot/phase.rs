@@ -25,37 +25,45 @@ impl Figure for PhaseDiagram {
     }
 
     fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
-        let grid = Grid::new(source)?;
-        let points: Vec<&Point> = grid
-            .panels
-            .iter()
-            .flat_map(|panel| panel.cells.iter().flatten())
-            .collect();
-        let occurs = |label: &Label| {
-            let mut points = points.iter();
-            points.any(|point| has_majority(point) && point.label == *label)
-        };
-        let labels = source.table.family.labels.iter();
-        let mut legend: Vec<Entry> = labels
-            .filter(|label| occurs(label))
-            .map(|label| Entry::new(Key::Fill(fill(*label)), &label.name.replace('-', " ")))
-            .collect();
-        legend.extend(of_disagreement(&points));
-        let is_unsteady = |point: &Point| source.table.is_unsteady(point);
-        if points.iter().any(|point| is_unsteady(point)) {
-            let key = Key::Fill(Fill::Falling(WHITE));
-            legend.push(Entry::new(key, "not steady"));
-        }
-        Diagram {
-            name: self.name(),
-            grid: &grid,
-            look: &|point| Some(look(point, is_unsteady(point))),
-            empty: "not run".to_owned(),
-            legend,
-            bar: None,
-        }
-        .draw(source)
+        with_diagram(self.name(), source, |diagram| diagram.draw(source))
     }
+}
+
+/// Has the phase diagram of a source drawn, under a name.
+pub(super) fn with_diagram(
+    name: &str,
+    source: &Source<'_>,
+    draw: impl FnOnce(&Diagram<'_>) -> Result<Svg, PlotError>,
+) -> Result<Svg, PlotError> {
+    let grid = Grid::new(source)?;
+    let points: Vec<&Point> = grid
+        .panels
+        .iter()
+        .flat_map(|panel| panel.cells.iter().flatten())
+        .collect();
+    let occurs = |label: &Label| {
+        let mut points = points.iter();
+        points.any(|point| has_majority(point) && point.label == *label)
+    };
+    let labels = source.table.family.labels.iter();
+    let mut legend: Vec<Entry> = labels
+        .filter(|label| occurs(label))
+        .map(|label| Entry::new(Key::Fill(fill(*label)), &label.name.replace('-', " ")))
+        .collect();
+    legend.extend(of_disagreement(&points));
+    let is_unsteady = |point: &Point| source.table.is_unsteady(point);
+    if points.iter().any(|point| is_unsteady(point)) {
+        let key = Key::Fill(Fill::Falling(WHITE));
+        legend.push(Entry::new(key, "not steady"));
+    }
+    draw(&Diagram {
+        name,
+        grid: &grid,
+        look: &|point| Some(look(point, is_unsteady(point))),
+        empty: "not run".to_owned(),
+        legend,
+        bar: None,
+    })
 }
 
 /// Whether more than half of the seeds of a point have its label.

@@ -1,19 +1,17 @@
-//! The phase diagram of the numerics: what became of the runs of a study, one panel per integrator,
-//! with the theoretical limit of the time step over it.
+//! The phase diagram of the numerics: a panel for each integrator, with the theoretical limit of the
+//! time step over it.
 
 use super::contour::{Nodes, Piece};
-use super::diagram::{Curve, Diagram, Look, Stroke};
-use super::grid::{Grid, GridAxis, Panel};
-use super::legend::{Entry, Key};
-use super::style::Fill;
+use super::diagram::{Curve, Stroke};
+use super::grid::{GridAxis, Panel};
 use super::svg::Svg;
-use super::{PlotError, palette};
-use crate::classify::{Label, NUMERICS};
+use super::{PlotError, Source, phase};
 use crate::dem::timestep::{Limit, limits};
 use crate::record::Program;
-use crate::scene::Scene;
+use crate::store::StoreError;
 use crate::study::comparison::{RunRow, Setting};
 use crate::study::stability::StabilityStudy;
+use std::path::Path;
 
 /// What the legend calls the full and the dashed curves.
 const LIMITS: [&str; 2] = ["limit of the time step", "advised limit of twelve contacts"];
@@ -27,69 +25,34 @@ pub fn draw(
     rows: &[Option<RunRow>],
     program: &Program,
 ) -> Result<Svg, PlotError> {
-    let sweep = &study.comparison.settings[0].sweep;
-    let axis = |index| GridAxis::over(index, &sweep.axes, &sweep.scene, std::iter::empty());
-    let (x, y) = (axis(0), axis(1));
-    let settings = study.comparison.settings.iter();
-    let curves = settings.map(|it| curves(study, it, &x, &y));
-    let curves: Vec<Vec<Curve>> = curves.collect();
-    let grid = Grid {
-        panels: panels(study, rows, &x, &y),
-        x,
-        y: Some(y),
-        columns: None,
-        rows: None,
+    let (sweep, table) = study.labels(rows);
+    let source = Source {
+        sweep: &sweep,
+        refining: None,
+        table: &table,
+        record: &|id| {
+            Err(StoreError::content(
+                Path::new(id),
+                "a study keeps no records",
+            ))
+        },
+        points: &[],
+        times: None,
+        captions: &[],
+        data: &[],
+        program,
     };
-    let occurs = |label: &Label| rows.iter().flatten().any(|row| row.label == *label);
-    let legend = NUMERICS.labels.iter().filter(|label| occurs(label));
-    let legend =
-        legend.map(|label| Entry::new(Key::Fill(fill(*label)), &label.name.replace('-', " ")));
-    let diagram = Diagram {
-        name: "stability",
-        grid: &grid,
-        look: &|label: &Label| Some(Look::new(fill(*label), Some(label.code))),
-        empty: "not run".to_owned(),
-        legend: legend.collect(),
-        bar: None,
-    };
-    let entries = Curve::entries(&curves, LIMITS);
-    let body = diagram.body(sweep.title.as_deref(), &curves, entries)?;
-    let scene = Scene {
-        title: sweep.title.clone(),
-        ..sweep.scene.clone()
-    };
-    Ok(Svg::of_scene(diagram.name, &scene, program, &body))
-}
-
-fn fill(label: Label) -> Fill {
-    Fill::Color(palette::state(label))
-}
-
-/// A panel for each integrator.
-fn panels(
-    study: &StabilityStudy,
-    rows: &[Option<RunRow>],
-    x: &GridAxis,
-    y: &GridAxis,
-) -> Vec<Panel<Label>> {
-    let settings = &study.comparison.settings;
-    let panel = |(place, setting): (usize, &Setting)| {
-        let mut cells = vec![None; x.values.len() * y.values.len()];
-        let runs = study.comparison.sample(place, rows).points;
-        for (values, runs) in setting.sweep.grid().zip(runs) {
-            if let (Some(column), Some(line)) = (x.position(&values), y.position(&values)) {
-                let run = runs.first().copied().flatten();
-                cells[column + line * x.values.len()] = run.map(|run| run.label);
+    phase::with_diagram("stability", &source, |diagram| {
+        let grid = diagram.grid;
+        let curves = |panel: &Panel| match (grid.variant(panel), &grid.y) {
+            (Some(place), Some(y)) => {
+                let setting = &study.comparison.settings[place as usize];
+                curves(study, setting, &grid.x, y)
             }
-        }
-        Panel {
-            head: (settings.len() > 1).then(|| setting.name.clone()),
-            column: None,
-            row: None,
-            cells,
-        }
-    };
-    settings.iter().enumerate().map(panel).collect()
+            _ => Vec::new(),
+        };
+        diagram.draw_with(&source, &curves, LIMITS)
+    })
 }
 
 /// The limit that decides, and the advised one of a sphere with twelve contacts, which there is not

@@ -1,8 +1,9 @@
 //! What a study of stability finds of each integrator.
 
 use super::StabilityStudy;
-use crate::classify::{Label, NUMERICS};
+use crate::classify::{Label, LabelRow, LabelTable, NUMERICS, Verdict};
 use crate::study::comparison::{RunRow, Sample};
+use crate::sweep::{Axis, Sweep, Variant};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -26,6 +27,45 @@ impl StabilityStudy {
         settings
             .map(|(place, it)| Tried::of(&it.name, &self.comparison.sample(place, rows)))
             .collect()
+    }
+}
+
+impl StabilityStudy {
+    /// The study as a sweep whose last axis is the integrator, and the labels of its runs.
+    pub fn labels(&self, rows: &[Option<RunRow>]) -> (Sweep, LabelTable) {
+        let settings = &self.comparison.settings;
+        let variants = settings.iter().map(|setting| Variant {
+            name: setting.name.clone(),
+            scale: Vec::new(),
+            scene: setting.sweep.scene.clone(),
+        });
+        let mut sweep = settings[0].sweep.clone();
+        sweep.axes.push(Axis::of_variants(variants.collect()));
+        let mut table = LabelTable {
+            family: &NUMERICS,
+            axes: sweep.axes.iter().map(|axis| axis.name.clone()).collect(),
+            variants: sweep.variants(),
+            rows: Vec::new(),
+        };
+        for (place, setting) in settings.iter().enumerate() {
+            let runs = self.comparison.sample(place, rows).points;
+            for (mut values, runs) in setting.sweep.grid().zip(runs) {
+                values.push(place as f64);
+                let row = |run: &RunRow| LabelRow {
+                    id: run.id.clone(),
+                    values: values.clone(),
+                    seed: setting.sweep.scene.seed,
+                    verdict: Verdict {
+                        label: run.label,
+                        family: &NUMERICS,
+                        steady: None,
+                        values: run.values.clone(),
+                    },
+                };
+                table.rows.extend(runs.into_iter().flatten().map(row));
+            }
+        }
+        (sweep, table)
     }
 }
 
