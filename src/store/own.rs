@@ -156,7 +156,7 @@ mod tests {
             ("run.xyz", "1\nsteel\nFe 0 0 0\n"),
             ("walls.vtp", "<?xml version=\"1.0\"?>\n<VTKFile>"),
             ("phase.1", ".TH moon 1\n"),
-            ("step-time-count.csv", "spheres,seconds\n"),
+            ("runs.makers.csv", "run,build\n"),
             ("notes.txt", "phase"),
         ] {
             let path = place.path().join(name);

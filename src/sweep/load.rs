@@ -136,12 +136,6 @@ pub(crate) fn of_document(document: &Document) -> Result<Sweep, LoadError> {
     check_sieves(&sweep, document.tree(), &mut problems);
     document.accept(&problems)?;
     if let Some(refine) = &file.refine {
-        if !file.variant.is_empty() {
-            let message = "a sweep with variants is not refined: they have no order along which \
-                           labels change";
-            let help = "remove [refine], or make a file for each variant";
-            document.accept(&[Problem::new("refine", message).help(help)])?;
-        }
         refine.refine(&mut sweep, &mut problems);
         document.accept(&problems)?;
     }

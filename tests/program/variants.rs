@@ -110,3 +110,11 @@ fn tables_figures_and_answers_name_variants() {
     ];
     place.phase(&again).code(0).says("variant-as it was");
 }
+
+#[test]
+fn variants_are_not_refined() {
+    swept()
+        .phase(&["sweep", "tiny.toml", "--refine"])
+        .code(2)
+        .complains("a sweep with variants is not refined");
+}
