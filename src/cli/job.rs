@@ -1,9 +1,10 @@
 //! A job of a sweep, as `--json` names it, and what is told of jobs while they run.
 
 use super::progress::Progress;
+use phase::grid::Axis;
 use phase::record::RunRecord;
 use phase::run;
-use phase::sweep::{Axis, Event, Failure, Job};
+use phase::sweep::{Event, Failure, Job};
 use serde::Serialize;
 use serde_json::Value;
 use std::collections::BTreeMap;

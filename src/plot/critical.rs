@@ -128,8 +128,9 @@ mod tests {
     use super::*;
     use crate::classify::{Label, Sieves, TANK, Verdict};
     use crate::classify::{LabelRow, LabelTable};
+    use crate::grid::Axis;
     use crate::record::Program;
-    use crate::sweep::{Axis, PlotSettings, Sweep};
+    use crate::sweep::{PlotSettings, Sweep};
     use serde_json::json;
 
     const RADIUS: &str = "spheres.radius";

@@ -2,7 +2,8 @@
 //!
 //! Columns: `id`, the axes by their names, `seed`, `reason`.
 
-use super::{Axis, Failure};
+use super::Failure;
+use crate::grid::Axis;
 use crate::store::{StoreError, write_atomic};
 use serde::Serialize;
 use std::path::Path;
@@ -123,7 +124,7 @@ mod tests {
         let text = std::fs::read_to_string(&path).unwrap();
         assert!(text.starts_with("id,radius,omega,seed,reason\n"), "{text}");
 
-        let variant = crate::sweep::Variant {
+        let variant = crate::grid::Variant {
             name: "no drag, calm".to_owned(),
             scale: Vec::new(),
             scene: crate::sweep::Sweep::of_falling_sphere().scene,

@@ -1,6 +1,5 @@
-//! Sweeps: a scene, the axes it is varied over, and the jobs that follow.
+//! Sweeps: the jobs of a grid, who runs them, and their results folder.
 
-mod axis;
 mod backend;
 mod dumps;
 mod failure;
@@ -12,33 +11,23 @@ mod load;
 mod plan;
 mod pool;
 mod refining;
-mod seeds;
 mod select;
-mod spacing;
 mod status;
-mod variant;
 pub mod work;
 
 pub use crate::document::differing_keys;
-pub use axis::Axis;
-pub(crate) use axis::AxisEntry;
 pub use backend::{
     Backend, BackendError, Batch, Begin, Claim, Event, LocalThreads, Report, Results, Wishes,
 };
 pub use dumps::find_dumps;
-pub(crate) use failure::describe_point;
-pub use failure::{Failure, describe};
+pub use failure::Failure;
 pub use failures::{read_failures, write_failures};
 pub use folder::{Access, Folder, FolderError};
-pub use job::{Job, PointError};
-pub(crate) use job::{PointScenes, grid};
+pub use job::Job;
 pub use labelling::{
     Labelled, Labelling, LabellingError, Since, WithoutRoom, refuse_to_lose_labels,
 };
-pub(crate) use load::{
-    SWEEP, base_scene, check_axes, check_jobs, check_number_of_axes, check_points, check_steps,
-    expand_axes, of_document, or_path,
-};
+pub(crate) use load::{SWEEP, of_document};
 pub use load::{from_str, load};
 pub use plan::{Done, ForeignRecord, Plan, Standing};
 pub use pool::{Pool, PoolError};
@@ -46,15 +35,11 @@ pub use refining::{
     FAILED, Learnt, Refined, Refinement, RefinementError, Refining, RoundsError, Step, WatchRounds,
     label_name,
 };
-pub(crate) use seeds::{SeedsEntry, expand_seeds};
 pub use select::{SelectError, Selection, parse_point};
 pub use status::{Status, UnderWay};
-pub(crate) use variant::{
-    SceneTree, VariantEntry, check_change, check_variants, nothing_to_leave_out,
-};
-pub use variant::{VARIANT, Variant};
 
 use crate::classify::Sieves;
+use crate::grid::Axis;
 use crate::refine::Settings;
 use crate::scene::Scene;
 use schemars::JsonSchema;

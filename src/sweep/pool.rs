@@ -116,10 +116,11 @@ impl Results for Records<'_> {
 mod tests {
     use super::*;
     use crate::dem;
+    use crate::grid::Axis;
     use crate::resume;
     use crate::run::Run;
     use crate::simulation::BuildError;
-    use crate::sweep::{Axis, read_failures};
+    use crate::sweep::read_failures;
     use crate::sweep::{Begin, Event, LocalThreads};
     use std::sync::Mutex;
     use std::sync::atomic::{AtomicBool, Ordering};

@@ -1,6 +1,7 @@
 //! Choosing points of a sweep by the values of its axes.
 
-use super::{Axis, Sweep, VARIANT};
+use super::Sweep;
+use crate::grid::{Axis, VARIANT};
 use crate::scene::LARGEST_SEED;
 use std::fmt::{self, Display};
 

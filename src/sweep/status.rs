@@ -1,6 +1,7 @@
 //! How far the sweep of a results folder is.
 
-use super::{Axis, Failure, Folder, FolderError, Job, Plan, Standing, read_failures};
+use super::{Failure, Folder, FolderError, Job, Plan, Standing, read_failures};
+use crate::grid::Axis;
 use crate::record::Outcome;
 use crate::run;
 use crate::store;

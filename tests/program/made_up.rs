@@ -1,10 +1,11 @@
 //! Sweeps that were never run, their tables, and figures of these.
 
 use phase::classify::{Family, LabelRow, LabelTable, Sieves, Verdict};
+use phase::grid::Axis;
 use phase::plot::Source;
 use phase::record::Program;
 use phase::scene::Scene;
-use phase::sweep::{Axis, PlotSettings, Sweep};
+use phase::sweep::{PlotSettings, Sweep};
 
 pub(crate) fn axis((key, name): (&str, &str), values: &[f64]) -> Axis {
     Axis::of_numbers(key, name, values.to_vec())

@@ -2,6 +2,7 @@
 //! key of a ladder with a line a point (Remmers, 2009, assignments 7 and 8).
 
 use super::color;
+use crate::grid::describe_point;
 use crate::plot::PlotError;
 use crate::plot::chart::{self, Chart, Line, Panel};
 use crate::plot::style::px;
@@ -9,7 +10,6 @@ use crate::plot::svg::Svg;
 use crate::record::Program;
 use crate::scene::leaf;
 use crate::study::comparison::{Comparison, RunRow, Setting};
-use crate::sweep::describe_point;
 
 /// A line of the figure.
 struct Times {

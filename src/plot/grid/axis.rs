@@ -1,12 +1,13 @@
 //! An axis of a figure over a grid: its values as shown, its cells, its label.
 
 use crate::classify::LabelTable;
+use crate::grid::Axis;
 use crate::plot::numbers;
 use crate::plot::scale::Span;
 use crate::plot::spacing::Spacing;
 use crate::plot::ticks::Ticks;
 use crate::scene::Scene;
-use crate::sweep::{Axis, PlotSettings, Sweep};
+use crate::sweep::{PlotSettings, Sweep};
 
 /// An axis of a figure.
 #[derive(Clone, Debug)]

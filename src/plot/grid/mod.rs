@@ -5,7 +5,8 @@ mod axis;
 use super::page::columns;
 use super::{PlotError, Source};
 use crate::classify::{LabelTable, Point};
-use crate::sweep::{Axis, Sweep};
+use crate::grid::Axis;
+use crate::sweep::Sweep;
 pub(super) use axis::{GridAxis, strip};
 
 /// One of the small multiples; its cells hold points of a sweep, or of something else.

@@ -8,12 +8,13 @@ pub use finding::{Finding, Verdict};
 pub use table::write_ablation;
 
 use crate::document::{Document, LoadError, Problem};
+use crate::grid::PointError;
 use crate::run;
 use crate::scene::{Change, Start};
 use crate::study::comparison::{
     AS_IT_IS, Base, Comparison, Cost, Measurement, RunRow, Setting, States,
 };
-use crate::sweep::{Job, PointError};
+use crate::sweep::Job;
 use serde::Serialize;
 
 /// Fewest seeds of an ablation by default.

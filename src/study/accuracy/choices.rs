@@ -2,9 +2,9 @@
 
 use super::file::{Combine, Ladder};
 use crate::document::{Problem, number};
+use crate::grid::{VariantEntry, check_variants};
 use crate::scene::{Change, leaf};
 use crate::study::comparison::AS_IT_IS;
-use crate::sweep::{VariantEntry, check_variants};
 use serde_json::Value;
 
 /// Name of the setting that others are compared with, where it is none of them.

@@ -1,8 +1,8 @@
 //! What the file of a study of accuracy may say.
 
 use crate::document::{Schema, unit};
+use crate::grid::{AxisEntry, SeedsEntry, VariantEntry, or_path};
 use crate::scene::{Change, Scene};
-use crate::sweep::{AxisEntry, SeedsEntry, VariantEntry, or_path};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::Value;

@@ -4,15 +4,15 @@ use super::choices::{Choice, REFERENCE, choices};
 use super::file::{ACCURACY, AccuracyFile, Changes};
 use super::{AccuracyStudy, Subject, cases};
 use crate::document::{Document, LoadError, Problem, number, one_of};
+use crate::grid::{
+    check_axes, check_jobs, check_number_of_axes, check_steps, expand_axes, expand_seeds,
+    nothing_to_leave_out,
+};
 use crate::run;
 use crate::scene::{Change, FileKind, Scene, Start, StartSphere, leaf, settings};
 use crate::simulation::{BuildError, Snapshot};
 use crate::study::StudyName;
 use crate::study::comparison::{AS_IT_IS, Base, Comparison, Measurement, Setting};
-use crate::sweep::{
-    check_axes, check_jobs, check_number_of_axes, check_steps, expand_axes, expand_seeds,
-    nothing_to_leave_out,
-};
 use serde::Deserialize;
 use std::path::Path;
 

@@ -2,9 +2,11 @@
 
 use crate::classify::Family;
 use crate::document::{Document, LoadError, Problem, number};
+use crate::grid::{PointScenes, SceneTree, check_change};
+use crate::grid::base_scene;
 use crate::run::{self, Reading};
 use crate::scene::{Change, FileKind, Friction, Scene, is_within};
-use crate::sweep::{self, PointScenes, SceneTree, Sweep, check_change};
+use crate::sweep::{self, Sweep};
 use serde_json::{Value, json};
 
 /// A scene or a sweep, and its scene as the file has it.
@@ -26,7 +28,7 @@ impl Base {
     /// What the key `scene` of a study says: the path of a scene or sweep, or a scene itself.
     pub(crate) fn of_entry(entry: &Value, document: &Document) -> Result<Self, LoadError> {
         let Some(path) = entry.as_str() else {
-            let sweep = sweep::base_scene(entry, document, Reading::RUN)?;
+            let sweep = base_scene(entry, document, Reading::RUN)?;
             return Ok(Self {
                 sweep: Sweep::of_scene(sweep),
                 source: SceneTree::within(entry, document.folder()),
@@ -175,7 +177,7 @@ impl Base {
         }
         let mut scenes =
             PointScenes::new(&sweep.scene, &sweep.axes).map_err(|error| error.problems)?;
-        for values in sweep::grid(&sweep.axes) {
+        for values in sweep.grid() {
             scenes.checked(&values).map_err(|error| {
                 let at = error.point;
                 let mut problems = error.problems;

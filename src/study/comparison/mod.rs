@@ -26,8 +26,9 @@ pub use states::{ShiftOf, States};
 pub use table::{KnownRuns, RunRow, read_runs};
 
 use crate::document::Problem;
+use crate::grid::{Axis, PointError};
 use crate::scene::Change;
-use crate::sweep::{Axis, Job, PointError, Sweep};
+use crate::sweep::{Job, Sweep};
 use std::collections::HashMap;
 
 /// Name of the setting that changes nothing.

@@ -11,9 +11,9 @@
 
 use super::{Comparison, Quantity};
 use crate::classify::{FAMILIES, Label, NUMERICS};
+use crate::grid::Axis;
 use crate::record::Program;
 use crate::store::{StoreError, write_atomic};
-use crate::sweep::Axis;
 use std::collections::{BTreeMap, HashSet};
 use std::path::{Path, PathBuf};
 

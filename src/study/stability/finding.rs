@@ -2,8 +2,9 @@
 
 use super::StabilityStudy;
 use crate::classify::{Label, LabelRow, LabelTable, NUMERICS, Verdict};
+use crate::grid::{Axis, Variant};
 use crate::study::comparison::{RunRow, Sample};
-use crate::sweep::{Axis, Sweep, Variant};
+use crate::sweep::Sweep;
 use serde::Serialize;
 use std::collections::BTreeMap;
 

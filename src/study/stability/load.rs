@@ -3,14 +3,15 @@
 use super::{Frames, StabilityStudy, fit_frames, output};
 use crate::classify::{ENERGY_GAIN, NUMERICS};
 use crate::document::{Document, LoadError, Problem, Schema, unit};
+use crate::grid::{
+    Axis, AxisEntry, base_scene, check_axes, check_jobs, check_points, check_steps, expand_axes,
+    or_path,
+};
 use crate::run::Reading;
 use crate::scene::{Change, FileKind, Integrator, Scene, settings};
 use crate::study::StudyName;
 use crate::study::comparison::{Comparison, Measurement, Setting};
-use crate::sweep::{
-    Axis, AxisEntry, Job, Sweep, base_scene, check_axes, check_jobs, check_points, check_steps,
-    expand_axes, or_path,
-};
+use crate::sweep::{Job, Sweep};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::Value;

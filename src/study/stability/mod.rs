@@ -12,9 +12,10 @@ pub(crate) use load::{STABILITY, of_document};
 pub use load::{from_str, load};
 
 use crate::document::{Problem, number};
+use crate::grid::{PointError, PointScenes};
 use crate::scene::{Output, Scene, Time};
 use crate::study::comparison::Comparison;
-use crate::sweep::{Job, PointError, PointScenes, Sweep};
+use crate::sweep::{Job, Sweep};
 
 /// A study of stability, fully resolved.
 #[derive(Clone, Debug)]

@@ -2,12 +2,11 @@
 
 use super::scale;
 use crate::document::{Problem, unit};
+use crate::grid::Axis;
+use crate::grid::{MOST_JOBS, SeedsEntry, spacing::MOST_VALUES};
 use crate::refine::{ModelKind, RefineError, Settings, start};
 use crate::scene::LARGEST_SEED;
-use crate::sweep::{Axis, Sweep};
-use crate::sweep::load::MOST_JOBS;
-use crate::sweep::seeds::SeedsEntry;
-use crate::sweep::spacing::MOST_VALUES;
+use crate::sweep::Sweep;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

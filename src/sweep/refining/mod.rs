@@ -12,8 +12,8 @@ pub use learnt::{FAILED, Learnt, label_name};
 pub use refinement::{Refinement, RefinementError, Step};
 pub use rounds::{Refined, RoundsError, WatchRounds};
 
-use super::{Axis, Sweep};
-use super::job::{Job, PointError};
+use super::{Job, Sweep};
+use crate::grid::{Axis, PointError};
 use crate::refine::{Finish, Lattice, RefineError, Run, Settings, Width, start};
 use crate::scene::LARGEST_SEED;
 use serde::{Deserialize, Serialize};

@@ -3,8 +3,9 @@
 use super::learnt::{FAILED, Learnt};
 use super::{Refining, ends_before};
 use crate::classify::{Family, LabelTable};
+use crate::grid::PointError;
 use crate::refine::{Finish, Gap, Observations, RefineError, Round, Rounds, Run, Settings, widths};
-use crate::sweep::{Folder, Job, Labelling, Plan, PointError, Sweep};
+use crate::sweep::{Folder, Job, Labelling, Plan, Sweep};
 use std::collections::HashSet;
 
 /// The rounds of a refined sweep.

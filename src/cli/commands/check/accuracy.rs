@@ -4,9 +4,9 @@ use super::{Arguments, ForecastAnswer, TRIAL_TIME, describe_grid, effects, line}
 use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::{forecast, format};
+use phase::grid::Axis;
 use phase::study::accuracy::{AccuracyStudy, Subject};
 use phase::study::comparison::Comparison;
-use phase::sweep::Axis;
 use serde::Serialize;
 use std::path::Path;
 

@@ -6,9 +6,9 @@ use crate::cli::exit::{Exit, Failure};
 use crate::cli::format;
 use phase::cost::Leaves;
 use phase::dem::timestep::largest_stable;
+use phase::grid::Axis;
 use phase::study::comparison::Setting;
 use phase::study::stability::StabilityStudy;
-use phase::sweep::Axis;
 use serde::Serialize;
 use std::path::Path;
 

@@ -2,9 +2,10 @@
 
 use crate::cli::console::Console;
 use crate::cli::exit::Failure;
+use phase::grid::Axis;
 use phase::record::{Program, RunRecord};
 use phase::store::{self, StoreError};
-use phase::sweep::{Axis, Folder, Job, Selection, Sweep, parse_point};
+use phase::sweep::{Folder, Job, Selection, Sweep, parse_point};
 use std::path::{Path, PathBuf};
 
 /// A job of a sweep, and where its record is.

@@ -89,7 +89,7 @@ pub(crate) fn check_variants(
 }
 
 /// The axis of variants of a scene beside other axes; none without variants.
-pub(super) fn expand_variants(
+pub(crate) fn expand_variants(
     entries: &[VariantEntry],
     source: &SceneTree,
     axes: &[Axis],
