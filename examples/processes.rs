@@ -8,15 +8,13 @@
 #![allow(clippy::print_stdout, reason = "the example says what it did")]
 
 use phase::record::RunRecord;
-use phase::resume::DEFAULT_INTERVAL;
 use phase::store;
 use phase::sweep::{
-    Backend, BackendError, Batch, Event, Folder, Job, Labelling, Plan, Pool, Wishes, work,
+    Backend, BackendError, Batch, Claim, Event, Folder, Job, Labelling, Plan, Pool, work,
 };
 use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
-use std::sync::atomic::AtomicBool;
 use std::thread;
 use std::time::Duration;
 
@@ -62,20 +60,17 @@ impl Processes {
 impl Backend for Processes {
     fn run(&self, batch: &Batch<'_>) -> Result<(), BackendError> {
         let done = work::each(self.count, batch.jobs(), |job| {
-            if batch.is_over() {
-                return;
-            }
-            let Some(_claim) = batch.claim(job) else {
+            let Claim::Granted(permit) = batch.claim(job) else {
                 return;
             };
             batch.tell(Event::Started(job));
             match self.run_job(batch, job) {
-                Ok(Some(record)) => batch.finish(job, &record, false, job.work()),
+                Ok(Some(record)) => permit.finish(&record),
                 Ok(None) => {}
-                Err(error) => batch.fail(job, error.to_string()),
+                Err(error) => permit.fail(error.to_string()),
             }
         });
-        done.map_err(|error| BackendError(error.into()))
+        done.map_err(BackendError::new)
     }
 }
 
@@ -94,24 +89,13 @@ fn main() -> Result<(), Box<dyn Error>> {
     let folder = Folder::new(out.unwrap_or_else(|| place.path().join("results")));
     let sweep = phase::sweep::load(Path::new(&file))?;
     folder.create()?;
-    let workers = work::default_workers();
-    let plan = Plan::new(&folder, sweep.jobs()?, workers)?;
-    let pool = Pool {
-        folder: &folder,
-        sweep: &sweep,
-        backend: &Processes {
-            program: program()?,
-            count: workers,
-            place: place.path().to_owned(),
-        },
-        workers,
-        checkpoint_interval: DEFAULT_INTERVAL,
-        wishes: Wishes {
-            stop: &AtomicBool::new(false),
-            resume: true,
-            watch: &|_| {},
-        },
+    let processes = Processes {
+        program: program()?,
+        count: work::default_workers(),
+        place: place.path().to_owned(),
     };
+    let pool = Pool::new(&folder, &sweep, &processes);
+    let plan = Plan::new(&folder, sweep.jobs()?, pool.workers)?;
     let report = pool.run(&plan)?;
     println!(
         "{} run in processes, {} failed",
@@ -121,7 +105,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     for failure in &report.failures {
         println!("{}: {}", failure.id, failure.reason);
     }
-    let labelled = Labelling::new(&folder, &sweep, &sweep.jobs()?, workers)?.write(&folder)?;
+    if let Some(error) = report.halted {
+        return Err(error.into());
+    }
+    let labelling = Labelling::new(&folder, &sweep, &sweep.jobs()?, pool.workers)?;
+    let labelled = labelling.write(&folder)?;
     println!("{} labelled", labelled.table.rows.len());
     Ok(())
 }

@@ -5,11 +5,9 @@
 //! ```
 #![allow(clippy::print_stdout, reason = "the example prints borders")]
 
-use phase::resume::DEFAULT_INTERVAL;
-use phase::sweep::{Folder, LocalThreads, Pool, Wishes, load, work};
+use phase::sweep::{Folder, LocalThreads, Pool, load, work};
 use std::error::Error;
 use std::path::Path;
-use std::sync::atomic::AtomicBool;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -18,20 +16,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     let (sweep, folder) = (load(Path::new(file))?, Folder::new(out));
     folder.create()?;
-    let workers = work::default_workers();
-    let pool = Pool {
-        folder: &folder,
-        sweep: &sweep,
-        backend: &LocalThreads::new(workers),
-        workers,
-        checkpoint_interval: DEFAULT_INTERVAL,
-        wishes: Wishes {
-            stop: &AtomicBool::new(false),
-            resume: true,
-            watch: &|_| {},
-        },
-    };
-    let refined = pool.refine(&mut ())?;
+    let threads = LocalThreads::new(work::default_workers());
+    let refined = Pool::new(&folder, &sweep, &threads).refine(&mut ())?;
     println!("{} runs: {:?}", refined.refinement.runs(), refined.end);
     println!("{}", std::fs::read_to_string(folder.borders())?);
     Ok(())

@@ -110,6 +110,7 @@ pub mod record;
 #[doc(hidden)]
 pub mod reference;
 pub mod refine;
+pub mod refusal;
 #[doc(hidden)]
 pub mod render;
 #[doc(hidden)]

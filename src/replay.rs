@@ -18,7 +18,7 @@ pub enum ReplayError {
          spheres.radius as one number, or as a file with one radius per sphere"
     )]
     Radii(usize),
-    /// The spheres are not those of the scene.
+    /// The number of spheres differs from the scene.
     #[error(
         "it has {found} spheres, but spheres.count of the scene is {expected}; give the scene that \
          was run"
@@ -29,7 +29,7 @@ pub enum ReplayError {
         /// Spheres of the scene.
         expected: usize,
     },
-    /// The frames are not those of the scene.
+    /// The number of frames differs from the scene.
     #[error(
         "it has {found} frames, but time.duration and time.frame_interval of the scene make \
          {expected} with the start (or one less); export a trajectory with every frame, and give \

@@ -54,6 +54,11 @@ impl Checkpoints {
         &self.path
     }
 
+    /// Time between two checkpoints.
+    pub fn interval(&self) -> Duration {
+        self.interval
+    }
+
     /// Lets a run that is at its start go on from the checkpoint. False if there is none.
     ///
     /// # Errors

@@ -1,7 +1,7 @@
 //! Maps that have been published as tables of labels.
 
 use super::replay::Oracle;
-use phase::refine::{Axis, Code, Lattice, RefineError, Run, Scale};
+use phase::refine::{AxisScale, Code, Lattice, LatticeAxis, RefineError, Trial};
 use std::path::{Path, PathBuf};
 
 /// Why a published map cannot be read.
@@ -67,7 +67,7 @@ impl PublishedMap {
         };
         let (id, seed, code) = (column("id")?, column("seed")?, column("code")?);
         let axes = id + 1..seed;
-        let mut rows: Vec<(Run, Code)> = Vec::new();
+        let mut rows: Vec<(Trial, Code)> = Vec::new();
         for (row, record) in reader.records().enumerate() {
             let record = record.map_err(table)?;
             let text = |column: usize| record.get(column).unwrap_or_default();
@@ -76,7 +76,7 @@ impl PublishedMap {
                 content(format!("row {}: `{text}` is not a number", row + 1))
             };
             let values = axes.clone().map(|at| text(at).parse().map_err(|_| bad(at)));
-            let run = Run {
+            let run = Trial {
                 values: values.collect::<Result<_, _>>()?,
                 seed: text(seed).parse().map_err(|_| bad(seed))?,
             };
@@ -86,12 +86,12 @@ impl PublishedMap {
         Ok(Self::from_rows(&names, rows)?)
     }
 
-    fn from_rows(names: &[&str], rows: Vec<(Run, Code)>) -> Result<Self, RefineError> {
+    fn from_rows(names: &[&str], rows: Vec<(Trial, Code)>) -> Result<Self, RefineError> {
         let axes = names.iter().enumerate().map(|(axis, name)| {
             let mut values: Vec<f64> = rows.iter().map(|(run, _)| run.values[axis]).collect();
             values.sort_by(f64::total_cmp);
             values.dedup();
-            Axis::new(name, values, Scale::Rank)
+            LatticeAxis::new(name, values, AxisScale::Rank)
         });
         let lattice = Lattice::new(axes.collect::<Result<_, _>>()?)?;
         let labels = vec![Vec::new(); lattice.places()];
@@ -150,7 +150,7 @@ impl Oracle for PublishedMap {
         &self.lattice
     }
 
-    fn label(&self, run: &Run) -> Code {
+    fn label(&self, run: &Trial) -> Code {
         let at = &self.labels[self.place(&run.values)];
         // Seeds that the map does not have show what its first seed does.
         let own = at.iter().find(|(seed, _)| *seed == run.seed);

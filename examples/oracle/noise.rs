@@ -2,7 +2,7 @@
 
 use super::maps::PublishedMap;
 use super::replay::Oracle;
-use phase::refine::{Code, Lattice, Run};
+use phase::refine::{Code, Lattice, Trial};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
@@ -76,7 +76,7 @@ impl Oracle for NoisyMap {
         self.map.lattice()
     }
 
-    fn label(&self, run: &Run) -> Code {
+    fn label(&self, run: &Trial) -> Code {
         self.draw(self.map.place(&run.values), run.seed)
     }
 }

@@ -1,6 +1,6 @@
 //! Replays: refining with labels from an oracle.
 
-use phase::refine::{Code, Lattice, RefineError, Round, Rounds, Run, Settings};
+use phase::refine::{Code, Lattice, RefineError, Round, Rounds, Settings, Trial};
 
 /// What knows the labels of all runs.
 pub(crate) trait Oracle {
@@ -8,7 +8,7 @@ pub(crate) trait Oracle {
     fn lattice(&self) -> &Lattice;
 
     /// The label of a run.
-    fn label(&self, run: &Run) -> Code;
+    fn label(&self, run: &Trial) -> Code;
 }
 
 /// Makes rounds until none is left, and shows what is known after each.

@@ -35,12 +35,12 @@ pub struct MeasureDifference {
 }
 
 /// A run or a point: its label, and its measures by their places.
-struct Entry {
+struct Compared {
     code: i64,
     values: Vec<Option<f64>>,
 }
 
-type Key = Vec<u64>;
+type PairKey = Vec<u64>;
 
 impl Agreement {
     /// Of two tables.
@@ -79,14 +79,15 @@ impl Agreement {
     fn of_entries(
         table: &LabelTable,
         by_runs: bool,
-        one: &[(Key, Entry)],
-        other: &[(Key, Entry)],
+        one: &[(PairKey, Compared)],
+        other: &[(PairKey, Compared)],
     ) -> Self {
-        let known: HashMap<&Key, &Entry> = other.iter().map(|(key, entry)| (key, entry)).collect();
+        let known: HashMap<&PairKey, &Compared> =
+            other.iter().map(|(key, entry)| (key, entry)).collect();
         let pairs = one
             .iter()
             .filter_map(|(key, entry)| Some((entry, *known.get(key)?)));
-        let pairs: Vec<(&Entry, &Entry)> = pairs.collect();
+        let pairs: Vec<(&Compared, &Compared)> = pairs.collect();
         let measures = table.family.measures().enumerate();
         let measures = measures.filter(|(_, measure)| !measure.is_evidence);
         let difference = |(place, measure): (usize, &'static super::Measure)| {
@@ -113,15 +114,15 @@ impl Agreement {
     }
 }
 
-fn key(values: &[f64]) -> Key {
+fn key(values: &[f64]) -> PairKey {
     values.iter().map(|it| it.to_bits()).collect()
 }
 
-fn runs(table: &LabelTable) -> Vec<(Key, Entry)> {
+fn runs(table: &LabelTable) -> Vec<(PairKey, Compared)> {
     let entry = |row: &LabelRow| {
         let mut key = key(&row.values);
         key.push(row.seed);
-        let entry = Entry {
+        let entry = Compared {
             code: i64::from(row.verdict.label.code),
             values: row.verdict.values.clone(),
         };
@@ -130,7 +131,7 @@ fn runs(table: &LabelTable) -> Vec<(Key, Entry)> {
     table.rows.iter().map(entry).collect()
 }
 
-fn points(table: &LabelTable) -> Vec<(Key, Entry)> {
+fn points(table: &LabelTable) -> Vec<(PairKey, Compared)> {
     let measures = table.family.measures().count();
     let points = table.points().into_iter();
     let entry = |point: super::Point| {
@@ -139,7 +140,7 @@ fn points(table: &LabelTable) -> Vec<(Key, Entry)> {
             let values = rows.filter_map(|row| table.rows[*row].verdict.values[place]);
             Some(Estimate::of_mean(&values.collect::<Vec<_>>())?.value)
         };
-        let entry = Entry {
+        let entry = Compared {
             code: i64::from(point.label.code),
             values: (0..measures).map(mean).collect(),
         };

@@ -62,3 +62,5 @@ pub enum ClassifyError {
     #[error("the record contradicts itself: {0}; run the scene again")]
     Inconsistent(String),
 }
+
+crate::refusal::always!(true: ClassifyError);

@@ -2,6 +2,7 @@
 
 use super::drainage::DRAINAGE;
 use super::none::NONE;
+use super::sieve::SieveOfFamily;
 use super::silo::SILO;
 use super::tank::TANK;
 use super::{ClassifyError, Label, Measure, Sieves};
@@ -16,20 +17,18 @@ pub static FAMILIES: [&Family; 4] = [&SILO, &DRAINAGE, &TANK, &NONE];
 pub struct Family {
     /// Name, as in messages.
     pub name: &'static str,
-    /// The labels that its runs can have, in the order of their codes.
-    pub labels: &'static [Label],
-    /// Names of its sieves, as in `[sieves.NAME]`.
-    pub sieves: &'static [&'static str],
-    /// What is measured of its runs, in groups.
-    pub(super) measures: &'static [&'static [Measure]],
+    /// Its sieves, from which labels, measures, windows and checks follow.
+    pub sieves: &'static [SieveOfFamily],
+    /// The labels that no sieve gives.
+    pub(super) without_sieve: &'static [Label],
+    /// What is measured of its runs besides.
+    pub(super) order: &'static [Measure],
     /// Names of the figures that say most of a sweep.
     pub default_figures: &'static [&'static str],
     /// Whether a scene is of the family, if it is of none before.
     pub(super) takes: fn(&Scene) -> bool,
-    /// Whether sieves can judge runs of a scene.
+    /// Whether runs of a scene can be judged at all; each sieve checks its own thresholds.
     pub(super) check: fn(&Sieves, &Scene) -> Result<(), ClassifyError>,
-    /// Windows (s) for which a run must be long enough, by the names of their sieves.
-    pub(super) windows: fn(&Sieves) -> Vec<(&'static str, f64)>,
     /// Label and measures of a run that no guard ended.
     pub(super) judge: Judge,
 }
@@ -46,14 +45,34 @@ impl Family {
             .unwrap_or(&NONE)
     }
 
-    /// What is measured of its runs, in the order of the columns.
-    pub fn measures(&self) -> impl Iterator<Item = &'static Measure> + use<> {
-        self.measures.iter().copied().flatten()
+    /// The labels that its runs can have, in the order of their codes.
+    pub fn labels(&self) -> Vec<Label> {
+        let of_sieves = self.sieves.iter().flat_map(|sieve| sieve.labels);
+        let mut labels: Vec<Label> = self
+            .without_sieve
+            .iter()
+            .chain(of_sieves)
+            .copied()
+            .collect();
+        labels.sort_unstable();
+        labels
     }
 
     /// Its label of that name.
     pub fn label(&self, name: &str) -> Option<Label> {
-        self.labels.iter().copied().find(|label| label.name == name)
+        self.labels().into_iter().find(|label| label.name == name)
+    }
+
+    /// What is measured of its runs, in the order of the columns.
+    pub fn measures(&self) -> impl Iterator<Item = &'static Measure> + use<> {
+        let of_sieves = self.sieves.iter().flat_map(|sieve| sieve.measures);
+        of_sieves.chain(self.order)
+    }
+
+    /// Windows (s) for which a run must be long enough, by the names of their sieves.
+    pub(super) fn windows(&self, sieves: &Sieves) -> impl Iterator<Item = (&'static str, f64)> {
+        let windows = self.sieves.iter();
+        windows.filter_map(|sieve| Some((sieve.name, (sieve.window)(sieves)?)))
     }
 }
 
@@ -74,17 +93,17 @@ impl fmt::Debug for Family {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::document::{Schema, kind::Kind};
+    use crate::document::{Schema, kind::ValueKind};
     use std::collections::{BTreeMap, BTreeSet};
 
     #[test]
     fn labels_are_in_the_order_of_codes_and_no_two_have_one_code() {
         let mut names = BTreeMap::new();
         for family in FAMILIES {
-            assert!(family.labels.is_sorted(), "{family:?}");
-            assert_eq!(family.labels[..1], [Label::UNSTABLE], "{family:?}");
-            for label in family.labels {
-                assert_eq!(*names.entry(label.code).or_insert(*label), *label);
+            let labels = family.labels();
+            assert_eq!(labels[..1], [Label::UNSTABLE], "{family:?}");
+            for label in labels {
+                assert_eq!(*names.entry(label.code).or_insert(label), label);
             }
         }
         let codes: Vec<i8> = names.into_keys().collect();
@@ -93,14 +112,14 @@ mod tests {
 
     #[test]
     fn every_sieve_is_of_one_family() {
-        let Kind::Table(all) = Schema::of::<Sieves>().kind else {
+        let ValueKind::Table(all) = Schema::of::<Sieves>().kind else {
             panic!("sieves are a table");
         };
         let names: BTreeSet<&str> = all.keys.iter().map(|key| key.name.as_str()).collect();
         let known: Vec<&str> = FAMILIES
             .iter()
             .flat_map(|family| family.sieves)
-            .copied()
+            .map(|sieve| sieve.name)
             .collect();
         assert_eq!(names.len(), known.len());
         assert_eq!(names, known.into_iter().collect());

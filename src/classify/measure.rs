@@ -12,14 +12,14 @@ pub struct Measure {
     /// Unit; empty for a pure number.
     pub unit: &'static str,
     /// The values that it can have.
-    pub range: Range,
+    pub range: MeasureRange,
     /// Whether it says how clearly a sieve decided, and not what the run did.
     pub is_evidence: bool,
 }
 
 /// The values that a measure can have, which decides how a figure shows it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Range {
+pub enum MeasureRange {
     /// Any, mostly positive.
     Any,
     /// Zero is the middle.
@@ -37,7 +37,7 @@ pub(super) const fn measured(quantity: &'static str, unit: &'static str) -> Meas
         description: "",
         quantity,
         unit,
-        range: Range::Any,
+        range: MeasureRange::Any,
         is_evidence: false,
     }
 }
@@ -54,7 +54,7 @@ impl Measure {
     /// The same with zero in the middle.
     pub(super) const fn signed(self) -> Self {
         Self {
-            range: Range::Signed,
+            range: MeasureRange::Signed,
             ..self
         }
     }
@@ -62,7 +62,7 @@ impl Measure {
     /// The same from 0 to 1, how many.
     pub(super) const fn share(self) -> Self {
         Self {
-            range: Range::Share,
+            range: MeasureRange::Share,
             ..self
         }
     }
@@ -70,7 +70,7 @@ impl Measure {
     /// The same from 0 to 1, how much.
     pub(super) const fn part(self) -> Self {
         Self {
-            range: Range::Part,
+            range: MeasureRange::Part,
             ..self
         }
     }

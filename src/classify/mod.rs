@@ -1,8 +1,8 @@
 //! The sieves: from the observables of a run to its label.
 //!
-//! Each [family](Family) of scenes has a folder with its labels, sieves and measures, and a place
-//! in the list [`FAMILIES`]. A sieve is one file; its windows are durations; it reads records,
-//! never simulations.
+//! Each [family](Family) of scenes has a folder with its sieves and measures, and a place in the
+//! list [`FAMILIES`]. A sieve is one file and a line in the list of [`Sieves`]; its windows are
+//! durations; it reads records, never simulations.
 
 mod agreement;
 mod drainage;
@@ -13,6 +13,7 @@ mod lengths;
 mod measure;
 mod none;
 mod numerics;
+mod sieve;
 mod sieves;
 mod silo;
 mod table;
@@ -25,9 +26,10 @@ pub use drainage::{BlockedSieve, DRAINAGE, DrainedSieve, StagnantSieve};
 pub use error::ClassifyError;
 pub use family::{FAMILIES, Family};
 pub use label::Label;
-pub use measure::{Measure, Range};
+pub use measure::{Measure, MeasureRange};
 pub use none::NONE;
 pub use numerics::{ENERGY_GAIN, NUMERICS, judge_numerics, judge_numerics_again};
+pub use sieve::SieveOfFamily;
 pub use sieves::Sieves;
 pub use silo::{ArchingSieve, EmptiedSieve, FlowingSieve, SILO};
 pub use table::{LabelRow, LabelTable, Point};

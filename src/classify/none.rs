@@ -11,12 +11,11 @@ impl Label {
 /// Scenes that are neither tank nor silo.
 pub static NONE: Family = Family {
     name: "scene without tank or outlet",
-    labels: &[Label::UNSTABLE, Label::STABLE],
     sieves: &[],
-    measures: &[],
+    without_sieve: &[Label::UNSTABLE, Label::STABLE],
+    order: &[],
     default_figures: &["phase"],
     takes: |_| true,
     check: |_, _| Ok(()),
-    windows: |_| Vec::new(),
     judge: |_, _| Ok((Label::STABLE, Vec::new())),
 };

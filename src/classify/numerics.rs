@@ -19,18 +19,17 @@ impl Label {
 /// Runs that are judged numerically. No scene is of this family by itself.
 pub static NUMERICS: Family = Family {
     name: "study of stability",
-    labels: &[
+    sieves: &[],
+    without_sieve: &[
         Label::STABLE,
         Label::ENERGY_GAIN,
         Label::LOST_SPHERE,
         Label::NOT_A_NUMBER,
     ],
-    sieves: &[],
-    measures: &[Numbers::MEASURES],
+    order: Numbers::MEASURES,
     default_figures: &["phase"],
     takes: |_| false,
     check: |_, _| Ok(()),
-    windows: |_| Vec::new(),
     judge: |record, _| {
         let verdict = judge_numerics(record, ENERGY_GAIN);
         Ok((verdict.label, verdict.values))

@@ -1,8 +1,9 @@
-//! Thresholds of all sieves.
+//! The list of all sieves.
 
-use super::drainage::{BlockedSieve, DrainedSieve, StagnantSieve};
-use super::silo::{ArchingSieve, EmptiedSieve, FlowingSieve};
-use super::tank::{FluidSieve, PinnedSieve, SettleSieve, SpoutSieve};
+use super::drainage::{BlockedSieve, DrainageRun, DrainedSieve, StagnantSieve};
+use super::sieve::{Sieve, SieveOfFamily, Sifted};
+use super::silo::{ArchingSieve, EmptiedSieve, FlowingSieve, Outflow};
+use super::tank::{FluidSieve, PinnedSieve, SettleSieve, SpoutSieve, TankRun};
 use super::{ClassifyError, Family};
 use crate::scene::Scene;
 use schemars::JsonSchema;
@@ -14,33 +15,69 @@ fn is_default<T: Default + PartialEq>(value: &T) -> bool {
     *value == T::default()
 }
 
-/// Thresholds of all sieves; every default of a tank's is that of the thesis's listing.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct Sieves {
-    /// Tank: when a run counts as steady.
-    pub settle: SettleSieve,
-    /// Tank: when a surface counts as a fluid's.
-    pub fluid: FluidSieve,
-    /// Tank: when a hole counts as pinned.
-    pub pinned: PinnedSieve,
-    /// Tank: when rising spheres count as a spout.
-    pub spout: SpoutSieve,
-    /// Silo: when it counts as empty.
-    pub emptied: EmptiedSieve,
-    /// Silo: when an arch has stopped the outflow.
-    pub arching: ArchingSieve,
-    /// Silo: when grains are still leaving.
-    pub flowing: FlowingSieve,
-    /// Drainage: when a box counts as empty.
-    #[serde(skip_serializing_if = "is_default")]
-    pub drained: DrainedSieve,
-    /// Drainage: when an opening counts as blocked.
-    #[serde(skip_serializing_if = "is_default")]
-    pub blocked: BlockedSieve,
-    /// Drainage: when corners count as stagnant.
-    #[serde(skip_serializing_if = "is_default")]
-    pub stagnant: StagnantSieve,
+/// Declares all sieves once, by families: the keys of `[sieves]`, the list of each family, and a
+/// function that sifts a run of the family through all of them, in this order.
+macro_rules! sieves {
+    ($(
+        $LIST:ident, $sift:ident($Run:ident): {
+            $($(#[$about:meta])+ $name:ident: $Sieve:ident,)+
+        }
+    )+) => {
+        /// Thresholds of all sieves; every default of a tank's is that of the thesis's listing.
+        #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+        #[serde(deny_unknown_fields, default)]
+        pub struct Sieves {
+            $($($(#[$about])+ pub $name: $Sieve,)+)+
+        }
+
+        $(
+            pub(super) static $LIST: &[SieveOfFamily] = &[$(SieveOfFamily {
+                name: stringify!($name),
+                labels: $Sieve::LABELS,
+                measures: $Sieve::MEASURES,
+                check: |sieves, scene| sieves.$name.check(scene),
+                window: |sieves| sieves.$name.window(),
+            }),+];
+
+            impl Sieves {
+                pub(super) fn $sift(&self, run: &mut $Run<'_>) -> Vec<Sifted> {
+                    vec![$(self.$name.sift(run)),+]
+                }
+            }
+        )+
+    };
+}
+
+sieves! {
+    TANK_SIEVES, sift_tank(TankRun): {
+        /// Tank: when a run counts as steady.
+        settle: SettleSieve,
+        /// Tank: when a surface counts as a fluid's.
+        fluid: FluidSieve,
+        /// Tank: when a hole counts as pinned.
+        pinned: PinnedSieve,
+        /// Tank: when rising spheres count as a spout.
+        spout: SpoutSieve,
+    }
+    SILO_SIEVES, sift_silo(Outflow): {
+        /// Silo: when it counts as empty.
+        emptied: EmptiedSieve,
+        /// Silo: when an arch has stopped the outflow.
+        arching: ArchingSieve,
+        /// Silo: when grains are still leaving.
+        flowing: FlowingSieve,
+    }
+    DRAINAGE_SIEVES, sift_drainage(DrainageRun): {
+        /// Drainage: when a box counts as empty.
+        #[serde(skip_serializing_if = "is_default")]
+        drained: DrainedSieve,
+        /// Drainage: when an opening counts as blocked.
+        #[serde(skip_serializing_if = "is_default")]
+        blocked: BlockedSieve,
+        /// Drainage: when corners count as stagnant.
+        #[serde(skip_serializing_if = "is_default")]
+        stagnant: StagnantSieve,
+    }
 }
 
 impl Sieves {
@@ -51,14 +88,19 @@ impl Sieves {
     /// A threshold is out of range; a tank has no gravity to measure energy by, or does not count
     /// the rising spheres that the spout sieve asks for; a silo has no outlet.
     pub fn check(&self, scene: &Scene) -> Result<(), ClassifyError> {
-        (Family::of(scene).check)(self, scene)
+        let family = Family::of(scene);
+        for sieve in family.sieves {
+            (sieve.check)(self, scene)?;
+        }
+        (family.check)(self, scene)
     }
 
     /// Sieves whose windows (s) are longer than a run of this scene, by their names: it can have
     /// none of their labels. Those of a silo take what there is of a window.
     pub fn without_room(&self, scene: &Scene) -> Vec<(&'static str, f64)> {
-        let mut windows = (Family::of(scene).windows)(self);
-        windows.retain(|(_, window)| *window > scene.time.duration);
+        let windows = Family::of(scene).windows(self);
         windows
+            .filter(|(_, window)| *window > scene.time.duration)
+            .collect()
     }
 }

@@ -101,6 +101,7 @@ impl LabelTable {
     pub fn points(&self) -> Vec<Point> {
         let mut points: Vec<Point> = Vec::new();
         let mut index = std::collections::HashMap::new();
+        let labels = self.family.labels();
         for (row, entry) in self.rows.iter().enumerate() {
             let key: Vec<u64> = entry.values.iter().map(|value| value.to_bits()).collect();
             let at = *index.entry(key).or_insert_with(|| {
@@ -122,7 +123,7 @@ impl LabelTable {
                     .filter(|&&row| self.rows[row].verdict.label == label)
                     .count()
             };
-            let labels = self.family.labels.iter().copied();
+            let labels = labels.iter().copied();
             let (label, votes) = labels.map(|label| (label, count(label))).fold(
                 (Label::UNSTABLE, 0),
                 |best, next| {

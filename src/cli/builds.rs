@@ -5,8 +5,8 @@ use super::format;
 use phase::record::Program;
 use std::collections::BTreeMap;
 
-/// Warns of results that are taken over, each a `thing`, but that another build made, or one that
-/// was not noted: the present one might give other bits.
+/// Warns of results (each a `thing`) that are reused although another or an unknown build made
+/// them: this build might give other bits.
 pub(super) fn tell_of_others<'a>(
     thing: &str,
     makers: impl Iterator<Item = Option<&'a Program>>,
@@ -16,7 +16,7 @@ pub(super) fn tell_of_others<'a>(
     for maker in makers.filter(|maker| *maker != Some(&Program::current())) {
         let name = match maker {
             Some(Program { version, commit }) => format!("version {version} (commit {commit})"),
-            None => "a version that was not noted".to_owned(),
+            None => "an unknown version".to_owned(),
         };
         *counts.entry(name).or_default() += 1;
     }
@@ -26,7 +26,7 @@ pub(super) fn tell_of_others<'a>(
             _ => (format::count(number, thing), "were", "them"),
         };
         console.warning(format_args!(
-            "{results} {were} made by {maker}; --force makes {them} anew"
+            "{results} {were} made by {maker}; --force runs {them} again"
         ));
     }
 }

@@ -104,17 +104,19 @@ impl Console {
         }
     }
 
-    /// Prints the files written as one JSON object, if that was asked for.
-    pub(crate) fn answer_files(&self) {
+    /// The same, with the files written.
+    pub(crate) fn answer_with_files(&self, answer: &impl Serialize) {
         #[derive(Serialize)]
-        struct Answer {
+        struct WithFiles<'a, T> {
+            #[serde(flatten)]
+            answer: &'a T,
             files: Vec<String>,
         }
         let files = self.files();
-        self.answer(&Answer { files });
+        self.answer(&WithFiles { answer, files });
     }
 
-    /// Says something on the way.
+    /// Prints a note to the standard error.
     pub(crate) fn note(&self, text: impl Display) {
         if !self.quiet {
             complain(text);

@@ -1,6 +1,8 @@
 //! How the program ends.
 
+use phase::refusal::Refusal;
 use std::fmt::Display;
+use std::path::Path;
 use std::process::ExitCode;
 
 /// Exit codes. Scripts rely on them, and `phase --help` lists them.
@@ -37,11 +39,28 @@ impl Failure {
         }
     }
 
+    /// The same failure, of a file or folder.
+    pub(crate) fn at(self, path: impl AsRef<Path>) -> Self {
+        Self {
+            message: format!("{}: {}", path.as_ref().display(), self.message),
+            ..self
+        }
+    }
+
     /// The command cannot begin.
     pub(crate) fn refused(error: impl Display) -> Self {
         Self {
             exit: Exit::Refused,
             message: error.to_string(),
+        }
+    }
+}
+
+impl<E: Refusal> From<E> for Failure {
+    fn from(error: E) -> Self {
+        match error.is_refusal() {
+            true => Self::refused(error),
+            false => Self::failed(error),
         }
     }
 }

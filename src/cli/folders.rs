@@ -1,4 +1,4 @@
-//! Folders for what commands write, and folders of results that commands go through.
+//! Folders that commands write to, and folders of results that they go through.
 
 use super::console::Console;
 use super::exit::{Exit, Failure};
@@ -8,6 +8,9 @@ use serde::Serialize;
 use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
+
+/// The remedy if a file of another program is in the way.
+pub(super) const ANOTHER_FOLDER: &str = "choose another folder with --out";
 
 /// What became of a results folder, as `--json` prints it.
 #[derive(Serialize)]
@@ -25,16 +28,16 @@ pub(super) struct Reason {
     reason: String,
 }
 
-/// Why nothing is done with a folder.
+/// Why nothing was done with a folder.
 pub(super) enum Undone {
-    /// It is to stay as it is. That is a failure only if the folder itself was named.
+    /// It stays as it is, which is a failure only if the folder itself was named.
     Kept(Failure),
     Failed(Failure),
 }
 
-impl From<Failure> for Undone {
-    fn from(failure: Failure) -> Self {
-        Self::Failed(failure)
+impl<E: Into<Failure>> From<E> for Undone {
+    fn from(error: E) -> Self {
+        Self::Failed(error.into())
     }
 }
 
@@ -118,7 +121,7 @@ pub(super) fn refuse_foreign(
         _ => ("these files", "them"),
     };
     Err(Failure::refused(format_args!(
-        "{}: phase did not write {this} and would replace {it}; {remedy}, or move {it} away",
+        "{}: phase did not write {this} and would overwrite {it}; {remedy}, or move {it} away",
         foreign.join(", ")
     )))
 }
@@ -134,11 +137,7 @@ pub(super) fn files_of_figures(
 /// Makes a folder and those above it, unless they are there.
 pub(super) fn make(folder: &Path) -> Result<(), Failure> {
     std::fs::create_dir_all(folder).map_err(|error| {
-        Failure::failed(format_args!(
-            "{}: {error}{}",
-            folder.display(),
-            store::advice(&error)
-        ))
+        Failure::failed(format_args!("{error}{}", store::advice(&error))).at(folder)
     })
 }
 
@@ -156,10 +155,9 @@ pub(super) fn refuse_to_replace_any(
 ) -> Result<(), Failure> {
     let written = path.as_os_str().as_encoded_bytes();
     if written.ends_with(b"/") || written.ends_with(b"/.") {
-        return Err(Failure::refused(format_args!(
-            "{}: this is the name of a folder; give that of a file in it",
-            path.display()
-        )));
+        return Err(
+            Failure::refused("this is the name of a folder; give the name of a file").at(path),
+        );
     }
     let Ok(file) = File::open(path) else {
         return Ok(());
@@ -176,9 +174,9 @@ pub(super) fn refuse_to_replace_any(
         return Ok(());
     }
     Err(Failure::refused(format_args!(
-        "{}: this is not {kind}, and would be lost; choose another name for what is written",
-        path.display()
-    )))
+        "this is not {kind}, and would be overwritten; choose another name for the output"
+    ))
+    .at(path))
 }
 
 /// Makes the folder of a file.
@@ -186,8 +184,8 @@ pub(super) fn make_for(file: &Path) -> Result<(), Failure> {
     make(file.parent().unwrap_or(Path::new("")))
 }
 
-/// Refuses a folder that holds frames of another program, or frames which `count` new ones would
-/// not replace: what they are of could not be told any more.
+/// Refuses a folder that holds frames of another program, or more frames than the `count` new ones
+/// would replace: nobody could tell the two exports apart.
 pub(super) fn refuse_other_frames(
     folder: &Path,
     count: usize,
@@ -197,11 +195,11 @@ pub(super) fn refuse_other_frames(
     refuse_foreign(folder, names, "choose another folder")?;
     let beyond = folder.join(store::frame_name(count, extension));
     if beyond.exists() {
-        return Err(Failure::refused(format_args!(
-            "{}: this is a frame of another export, which had more of them; remove them, or choose \
-             another folder",
-            beyond.display()
-        )));
+        return Err(Failure::refused(
+            "this frame is left over from a longer export; remove its frames, or choose another \
+             folder",
+        )
+        .at(beyond));
     }
     Ok(())
 }

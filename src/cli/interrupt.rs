@@ -26,7 +26,9 @@ pub(crate) fn stop_on_signal(console: &Console) -> Result<&'static AtomicBool, F
         } else {
             ""
         };
-        speaker.note(format_args!("{line}stopping; once more ends at once"));
+        speaker.note(format_args!(
+            "{line}stopping; interrupt again to end at once"
+        ));
     })
     .map_err(|error| Failure::failed(format!("cannot listen for Ctrl-C: {error}")))?;
     Ok(&STOP)
@@ -84,7 +86,7 @@ impl Ignored {
     }
 }
 
-/// The signals that the process ignores, where the system tells (Linux); else none.
+/// The signals that the process ignores, if the system says so (Linux); otherwise none.
 fn ignored_signals() -> Ignored {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));

@@ -1,5 +1,6 @@
-//! A job of a sweep, as `--json` names it, and what is told of jobs while they run.
+//! A job of a sweep, as `--json` names it, and what is printed while jobs run.
 
+use super::format;
 use super::progress::Progress;
 use phase::grid::Axis;
 use phase::record::RunRecord;
@@ -9,7 +10,7 @@ use serde::Serialize;
 use serde_json::Value;
 use std::collections::BTreeMap;
 
-/// A job of a sweep and what is to be said of it.
+/// A job of a sweep, and what went wrong with it.
 #[derive(Serialize)]
 pub(super) struct NamedJob {
     id: String,
@@ -47,7 +48,7 @@ pub(super) fn point(axes: &[Axis], values: &[f64]) -> BTreeMap<String, Value> {
     axes.iter().zip(values).map(value).collect()
 }
 
-/// Tells what happened to a job that `name` names; `ended` says what became of a run.
+/// Prints what happened to a job. `name` gives its name, `ended` describes a run that ended.
 pub(super) fn tell(
     event: Event<'_>,
     progress: &Progress<'_>,
@@ -59,20 +60,31 @@ pub(super) fn tell(
         Event::Started(_) => {}
         Event::Elsewhere(job) => {
             let name = named(job);
-            progress.detail(format_args!("another process makes it: {name}"));
+            progress.detail(format_args!("another process is running it: {name}"));
+        }
+        Event::Made(job) => {
+            let name = named(job);
+            progress.detail(format_args!("another process has made it: {name}"));
             progress.job_done(job.work());
         }
+        Event::Waiting(jobs) => progress.note(format_args!(
+            "waiting for {} that other processes are making",
+            format::count(jobs, "job")
+        )),
         Event::Resumed(job, work) => {
             progress.skip(work);
             let job = named(job);
-            progress.detail(format_args!("goes on from its checkpoint: {job}"));
+            progress.detail(format_args!("resumed from its checkpoint: {job}"));
         }
         Event::CheckpointRefused(job, error) => progress.note(format_args!(
             "job {} starts from the beginning: {error}",
             job.id
         )),
         Event::NoCheckpoint(job, error) => {
-            progress.note(format_args!("no checkpoint of job {}: {error}", job.id));
+            progress.note(format_args!(
+                "cannot write a checkpoint of job {}: {error}",
+                job.id
+            ));
         }
         Event::Advanced(_, work) => progress.advance(work),
         Event::Finished(job, record, left) => {

@@ -8,12 +8,11 @@ use std::path::Path;
 
 /// Reads a scene or a sweep, a scene as the sweep of just one; and which it is.
 pub(super) fn load_scene_or_sweep(file: &Path) -> Result<(Sweep, FileKind), Failure> {
-    match AnyFile::load(file).map_err(Failure::refused)? {
+    match AnyFile::load(file)? {
         AnyFile::Scene(scene) => Ok((Sweep::of_scene(*scene), FileKind::Scene)),
         AnyFile::Sweep(sweep) => Ok((*sweep, FileKind::Sweep)),
         AnyFile::Study(_) => Err(Failure::refused(format_args!(
-            "{}: this is a study, neither a scene nor a sweep; `phase check {0}` says what it \
-             costs",
+            "{}: this is a study, not a scene or sweep; `phase check {0}` estimates its cost",
             file.display()
         ))),
     }

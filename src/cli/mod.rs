@@ -1,15 +1,19 @@
 //! The command line: what commands share, and `commands`, one file each.
 
 mod builds;
+mod columns;
 mod commands;
 mod console;
 mod exit;
+mod figures;
 mod folders;
 mod forecast;
 mod format;
 mod interrupt;
 mod job;
 mod kind;
+mod labels;
+mod options;
 mod overlaps;
 mod progress;
 mod refined;
@@ -20,7 +24,7 @@ mod values;
 use clap::{Args, CommandFactory, FromArgMatches, Parser};
 use commands::Command;
 use console::Console;
-use exit::Exit;
+use exit::Failure;
 use std::ffi::OsString;
 use std::process::ExitCode;
 
@@ -31,14 +35,12 @@ const VERSION: &str = concat!(
     ")"
 );
 
-const AFTER_HELP: &str = "\
-Exit codes:
+const AFTER_HELP: &str = "Exit codes:
   0    done
   1    something failed: a job, the disk, a file that cannot be read or written
   2    refused before anything was done: wrong arguments, a wrong scene or sweep file,
        records of other parameters in the way, a folder in use
-  130  interrupted by Ctrl-C or a request to end; the same command goes on from there, `run` with
-       --resume
+  130  interrupted by Ctrl-C or a request to end; the same command continues, `run` with --resume
 
 Example: a phase diagram from one file
   phase sweep sweeps/quick.toml";
@@ -48,19 +50,22 @@ Example: a phase diagram from one file
 #[command(name = "phase", version = VERSION, after_help = AFTER_HELP)]
 struct CommandLine {
     #[command(flatten)]
-    verbosity: Verbosity,
+    printing: Printing,
     #[command(subcommand)]
     command: Command,
 }
 
 #[derive(Args)]
-struct Verbosity {
-    /// Print nothing but errors, and what `--json` asks for.
+struct Printing {
+    /// Print only errors, and the result of --json.
     #[arg(short, long, global = true, conflicts_with = "verbose")]
     quiet: bool,
-    /// Print more: every job as it ends, every record that is run again.
+    /// Print more: every job as it ends, every record that is replaced.
     #[arg(short, long, global = true)]
     verbose: bool,
+    /// Print the result as one JSON object (docs/json.md) instead of text.
+    #[arg(long, global = true)]
+    json: bool,
 }
 
 /// Parses the command line. A number may be negative: commands that do not accept one say so.
@@ -71,21 +76,39 @@ fn parse() -> CommandLine {
     parsed.unwrap_or_else(|error| error.exit())
 }
 
+/// Refuses `--json` of a command that has no result for programs, and where an argument has no
+/// place in JSON.
+fn check_json(command: &Command) -> Result<(), Failure> {
+    if !command.has_answer() {
+        return Err(Failure::refused(
+            "this command has no result for programs; leave out --json",
+        ));
+    }
+    let is_text = |argument: OsString| argument.into_string().is_ok();
+    if std::env::args_os().all(is_text) {
+        return Ok(());
+    }
+    Err(Failure::refused(
+        "--json needs arguments in UTF-8, and one is not; rename the file or folder, or leave out \
+         --json",
+    ))
+}
+
 /// Parses the command line and does what it says.
 pub(crate) fn main() -> ExitCode {
     interrupt::report_too_large_files();
-    let CommandLine { verbosity, command } = parse();
-    let wants_json = command.wants_json();
-    let console = Console::new(verbosity.quiet, verbosity.verbose, wants_json);
-    let is_text = |argument: OsString| argument.into_string().is_ok();
-    if wants_json && !std::env::args_os().all(is_text) {
-        console.error(
-            "--json needs arguments in UTF-8, and one is not; rename the file or folder, or leave \
-             out --json",
-        );
-        return Exit::Refused.into();
-    }
-    let result = command.execute(&console);
+    let CommandLine { printing, command } = parse();
+    let Printing {
+        quiet,
+        verbose,
+        json,
+    } = printing;
+    let console = Console::new(quiet, verbose, json);
+    let result = match json {
+        true => check_json(&command),
+        false => Ok(()),
+    };
+    let result = result.and_then(|()| command.execute(&console));
     match result.and_then(|exit| console.check_output().map(|()| exit)) {
         Ok(exit) => exit.into(),
         Err(failure) => {

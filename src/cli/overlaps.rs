@@ -49,11 +49,11 @@ fn warn(release: &Release, at: &str, console: &Console) {
         _ => format!("; {} more like this", format::count(*others, "overlap")),
     };
     let faster = match speed > impact {
-        true => format!(", faster than any impact that the scene lets expect ({impact:.3} m/s)"),
+        true => format!(", faster than any impact expected in this scene ({impact:.3} m/s)"),
         false => String::new(),
     };
     console.warning(format_args!(
         "sphere {sphere} starts {depth:.3e} m ({depth_in_radii:.3} radii) deep in {partner}{at}: \
-         the contact pushes them apart at up to {speed:.3} m/s{faster}{others}"
+         the contact will push them apart at up to {speed:.3} m/s{faster}{others}"
     ));
 }

@@ -1,4 +1,4 @@
-//! How far the work is: a bar on a terminal, else a line now and then.
+//! How far the work is: a bar on a terminal, otherwise a line from time to time.
 
 use super::console::Console;
 use super::format;
@@ -138,7 +138,7 @@ impl<'a> Progress<'a> {
     }
 }
 
-/// The remaining time is told once one in this number of parts of the work is done.
+/// The remaining time is shown once this fraction of the work (one in so many) is done.
 const EARLY: f64 = 1000.0;
 
 impl State {

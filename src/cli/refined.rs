@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 pub(super) struct Answer {
     runs: usize,
     budget: usize,
-    /// Why no more runs are made; none while more are.
+    /// Why refining ended; `None` while it goes on.
     end: Option<Finish>,
     borders: Vec<Border>,
 }
@@ -29,7 +29,7 @@ struct Border {
 }
 
 impl Answer {
-    /// That of a sweep, if it is refined, with this number of runs.
+    /// For a sweep with this number of runs; `None` if it is not refined.
     pub(super) fn new(sweep: &Sweep, refining: Option<&Refining>, runs: usize) -> Option<Self> {
         let (settings, refining) = (sweep.refine.as_ref()?, refining?);
         let family = Family::of(&sweep.scene);
@@ -71,7 +71,7 @@ pub(super) fn describe_widest(sweep: &Sweep, refining: &Refining) -> String {
     match refining.widest() {
         None => "no border yet".to_owned(),
         Some(width) => format!(
-            "{}, the widest band ({}) over {} of {}",
+            "{}; the widest band ({}) covers {} of {}",
             format::count(refining.widths.len(), "border"),
             labels(sweep, width),
             share(width.mean),
@@ -84,7 +84,7 @@ pub(super) fn describe_widest(sweep: &Sweep, refining: &Refining) -> String {
 pub(super) fn describe_borders(sweep: &Sweep, refining: &Refining) -> Vec<String> {
     let line = |width: &Width| {
         format!(
-            "{}: 95 % band over {} of {} on average, {} at most ({})",
+            "{}: 95 % band covers {} of {} on average, {} at most ({})",
             labels(sweep, width),
             share(width.mean),
             sweep.axes[width.axis].name,
@@ -100,12 +100,12 @@ pub(super) fn describe_end(settings: &Settings, end: Finish) -> String {
     match (end, settings.width) {
         (Finish::Budget, None) => format!("the budget of {} runs is spent", settings.budget),
         (Finish::Budget, Some(width)) => format!(
-            "the budget of {} runs is spent, before all bands are as narrow as wanted ({})",
+            "the budget of {} runs is spent before all bands are as narrow as requested ({})",
             settings.budget,
             share(width)
         ),
         (Finish::Width, width) => format!(
-            "the bands of all borders are as narrow as wanted ({})",
+            "the bands of all borders are as narrow as requested ({})",
             share(width.unwrap_or(1.0))
         ),
         (Finish::Complete, _) => "every point has been run with all its seeds".to_owned(),
@@ -119,7 +119,7 @@ pub(super) fn describe_gap(sweep: &Sweep, gap: &Gap) -> String {
         .iter()
         .map(|(name, value)| format!("{name} = {value}"));
     format!(
-        "a region less than {} of the axes across may have been missed, such as at {}",
+        "a region smaller than {} of the axes may have been missed, for example at {}",
         share(2.0 * gap.radius),
         point.collect::<Vec<_>>().join(", ")
     )

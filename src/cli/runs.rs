@@ -33,14 +33,14 @@ pub(super) fn read(paths: &[PathBuf], scene: Option<&Path>) -> Result<Vec<RunRec
         && !paths.iter().any(|path| is_of_another_program(path))
     {
         return Err(Failure::refused(format_args!(
-            "--scene {}: it is for files of other programs, whose names end with {}, and there is \
-             none; records of phase have their own scene",
+            "--scene {}: this option is for files of other programs ({}), and none is given; \
+             records of phase hold their own scene",
             unused.display(),
             ENDS.map(|end| format!(".{end}")).join(", ")
         )));
     }
     let mut scene = match scene {
-        Some(path) => Some(Scene::load(path).map_err(Failure::refused)?),
+        Some(path) => Some(Scene::load(path)?),
         None => None,
     };
     let mut records: Vec<Option<RunRecord>> = Vec::new();
@@ -49,7 +49,7 @@ pub(super) fn read(paths: &[PathBuf], scene: Option<&Path>) -> Result<Vec<RunRec
             records.push(None);
             continue;
         }
-        let record = store::read_record(path).map_err(Failure::refused)?;
+        let record = store::read_record(path)?;
         scene.get_or_insert_with(|| record.scene.clone());
         records.push(Some(record));
     }
@@ -69,10 +69,10 @@ pub(super) fn check_labels(
 ) -> Result<(), Failure> {
     match labels {
         [] => Ok(()),
-        _ if folders => Err(Failure::refused("--label names records, not folders")),
+        _ if folders => Err(Failure::refused("--label is for records, not for folders")),
         _ if labels.len() == records => Ok(()),
         _ => Err(Failure::refused(format_args!(
-            "--label names records: give it once for each of the {records}, in their order"
+            "--label must be given once for each of the {records} records, in their order"
         ))),
     }
 }
@@ -80,13 +80,13 @@ pub(super) fn check_labels(
 /// The record of the states that a file of another program holds.
 fn replayed(path: &Path, scene: Option<&Scene>) -> Result<RunRecord, Failure> {
     let scene = scene.ok_or_else(|| {
-        Failure::refused(format_args!(
-            "{}: a file of another program does not say its box; give a record beside it, or its \
-             scene with `--scene`",
-            path.display()
-        ))
+        Failure::refused(
+            "a file of another program does not describe its box; add a record of phase to the \
+             command, or give its scene with --scene",
+        )
+        .at(path)
     })?;
-    let states = store::read_states(path).map_err(Failure::refused)?;
+    let states = store::read_states(path)?;
     replay_states(&states, scene)
-        .map_err(|error| Failure::refused(format_args!("{}: {error}", path.display())))
+        .map_err(|error| Failure::refused(format_args!("{error}")).at(path))
 }

@@ -7,15 +7,17 @@ use crate::run::{self, RunError};
 use crate::scene::{Scene, Start};
 use crate::store::{self, StoreError};
 use crate::sweep::{Job, work};
+use serde::Serialize;
 use std::ops::ControlFlow;
 use std::time::Duration;
 
 /// What a sweep will cost.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Forecast {
     /// Number of jobs that were tried.
     pub tried: usize,
     /// Work of all jobs, in the unit of their model.
+    #[serde(rename = "sphere_steps")]
     pub work: u64,
     /// Work per second of one worker while all work.
     pub rate: f64,
@@ -65,6 +67,8 @@ pub enum ForecastError {
     #[error("cannot start the workers: {0}")]
     Threads(#[from] rayon::ThreadPoolBuildError),
 }
+
+crate::refusal::always!(false: ForecastError);
 
 /// Cost of one job, as tried.
 struct Trial {

@@ -22,6 +22,8 @@ pub enum CostError {
     Io(#[from] std::io::Error),
 }
 
+crate::refusal::always!(false: CostError);
+
 /// What a part of a run costs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PartCost {

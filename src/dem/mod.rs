@@ -1,7 +1,7 @@
 //! The discrete element engine.
 //!
-//! The effects of a [`Scene`](crate::scene::Scene) are fixed when its [`DemSimulation`] is built: the
-//! inner loops are compiled for the laws in use, and what the scene does not name allocates and
+//! The effects of a [`Scene`](crate::scene::Scene) are fixed when its [`DemSimulation`] is built:
+//! the inner loops are compiled for the laws in use, and what the scene does not name allocates and
 //! computes nothing.
 //!
 //! The page `docs/engine.md` explains how it works: lists, blocks of pairs, threads, and why bits

@@ -44,7 +44,7 @@ fn fork<I: Send>(items: &mut [I], work: &(impl Fn(&mut I) + Sync)) {
 
 /// Does both, at the same time if the present pool has several threads.
 pub(in crate::dem) fn both(threads: usize, one: impl FnOnce() + Send, other: impl FnOnce() + Send) {
-    // With one thread, the pool may be that of a sweep, where `join` could start another run
+    // With one thread, the pool may belong to a sweep, where `join` could start another run
     // meanwhile.
     if threads > 1 && rayon::current_thread_index().is_some() {
         rayon::join(one, other);

@@ -1,16 +1,16 @@
 //! Refuses values that a description does not allow, with all their problems at once.
 
-use super::kind::{Key, Kind, Range, Variant};
+use super::kind::{NumberRange, TableKey, TagVariant, ValueKind};
 use super::{Problem, any_of, number, one_of, quoted, suggest};
 use serde_json::{Map, Value};
 
 /// A tag and all its variants.
-type Variants<'a> = (&'a str, &'a [Variant]);
+type Variants<'a> = (&'a str, &'a [TagVariant]);
 
 /// The first whole number that is too large for TOML.
 const LARGEST_WHOLE: f64 = (1_u64 << 63) as f64;
 
-impl Kind {
+impl ValueKind {
     /// Adds what is wrong with `value`, found at `path`.
     pub(crate) fn check(&self, value: &Value, path: &str, problems: &mut Vec<Problem>) {
         let misfit = || {
@@ -41,7 +41,7 @@ impl Kind {
             (Self::Vector, Value::Array(entries)) if entries.len() == 3 => {
                 for (index, entry) in entries.iter().enumerate() {
                     let path = format!("{path}[{index}]");
-                    Self::Number(Range::ANY).check(entry, &path, problems);
+                    Self::Number(NumberRange::ANY).check(entry, &path, problems);
                 }
             }
             (Self::Vector, Value::Array(entries)) => {
@@ -136,7 +136,7 @@ fn table_name(path: &str) -> String {
 }
 
 fn check_table(
-    keys: &[Key],
+    keys: &[TableKey],
     variants: Option<Variants<'_>>,
     table: &Map<String, Value>,
     path: &str,
@@ -153,7 +153,7 @@ fn check_table(
             None => problems.push(unknown_key(keys, variants, name, path, join(name))),
         }
     }
-    let misspelt = |key: &Key| {
+    let misspelt = |key: &TableKey| {
         let mut unknown = table
             .keys()
             .filter(|name| !keys.iter().any(|key| key.name == **name));
@@ -170,7 +170,7 @@ fn check_table(
 }
 
 fn unknown_key(
-    keys: &[Key],
+    keys: &[TableKey],
     variants: Option<Variants<'_>>,
     name: &str,
     table: &str,
@@ -178,7 +178,7 @@ fn unknown_key(
 ) -> Problem {
     let table_name = table_name(table);
     let elsewhere = variants.and_then(|(tag, variants)| {
-        let has = |variant: &&Variant| variant.table.keys.iter().any(|key| key.name == name);
+        let has = |variant: &&TagVariant| variant.table.keys.iter().any(|key| key.name == name);
         variants
             .iter()
             .find(has)
@@ -203,10 +203,10 @@ fn unknown_key(
     Problem::new(path, message).help(help).at_key()
 }
 
-fn missing_key(key: &Key, table: &str, path: &str) -> Problem {
+fn missing_key(key: &TableKey, table: &str, path: &str) -> Problem {
     let name = &key.name;
     match &key.kind {
-        Kind::Table(_) | Kind::Tagged(..) => {
+        ValueKind::Table(_) | ValueKind::Tagged(..) => {
             let message = format!("{} lacks the table [{path}]", table_name(table));
             Problem::new(table, message)
                 .help(format!("add [{path}] with {}", first_keys(&key.kind)))
@@ -219,13 +219,13 @@ fn missing_key(key: &Key, table: &str, path: &str) -> Problem {
 }
 
 /// The keys that a table must have.
-fn first_keys(kind: &Kind) -> String {
+fn first_keys(kind: &ValueKind) -> String {
     match kind {
-        Kind::Table(table) => {
+        ValueKind::Table(table) => {
             let needed = table.keys.iter().filter(|key| key.needed);
             one_of(needed.map(|key| &key.name))
         }
-        Kind::Tagged(tag, variants) => {
+        ValueKind::Tagged(tag, variants) => {
             let words = variants.iter().map(|variant| &variant.word);
             one_of(words.map(|word| format!("{tag} = \"{word}\"")))
         }
@@ -235,7 +235,7 @@ fn first_keys(kind: &Kind) -> String {
 
 fn check_tagged(
     tag: &str,
-    variants: &[Variant],
+    variants: &[TagVariant],
     table: &Map<String, Value>,
     path: &str,
     problems: &mut Vec<Problem>,

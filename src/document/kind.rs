@@ -1,13 +1,13 @@
 //! Which keys a file may have and what each may hold, as read from its schema.
 
 use super::number;
-use super::quantity::Quantity;
+use super::quantity::KeyQuantity;
 use serde_json::Value;
 
 /// A key of a table.
-pub(crate) struct Key {
+pub(crate) struct TableKey {
     pub(crate) name: String,
-    pub(crate) kind: Kind,
+    pub(crate) kind: ValueKind,
     /// Whether it must be there.
     pub(crate) needed: bool,
     /// What it means, one paragraph per line.
@@ -15,10 +15,10 @@ pub(crate) struct Key {
     /// The value that holds if it is left out.
     pub(crate) default: Option<Value>,
     /// What it measures, if it holds numbers.
-    pub(crate) quantity: Option<Quantity>,
+    pub(crate) quantity: Option<KeyQuantity>,
 }
 
-impl Key {
+impl TableKey {
     /// Its path in a table at the path `table`.
     pub(crate) fn path(&self, table: &str) -> String {
         match table {
@@ -29,34 +29,34 @@ impl Key {
 }
 
 /// The keys of a table, in the order of the struct.
-pub(crate) struct Table {
+pub(crate) struct KeyTable {
     pub(crate) description: Option<String>,
-    pub(crate) keys: Vec<Key>,
+    pub(crate) keys: Vec<TableKey>,
 }
 
 /// A value of a tag, and the keys that go with it.
-pub(crate) struct Variant {
+pub(crate) struct TagVariant {
     pub(crate) word: String,
-    pub(crate) table: Table,
+    pub(crate) table: KeyTable,
 }
 
 /// What a value may be.
-pub(crate) enum Kind {
+pub(crate) enum ValueKind {
     Text,
     Flag,
-    Number(Range),
+    Number(NumberRange),
     /// A whole number of at least this.
     Whole(u64),
     /// One of these words.
     Choice(Vec<String>),
-    List(Box<Kind>),
+    List(Box<ValueKind>),
     /// A list of three numbers.
     Vector,
-    Table(Table),
+    Table(KeyTable),
     /// A table whose key `0` selects one of the lists of further keys.
-    Tagged(String, Vec<Variant>),
+    Tagged(String, Vec<TagVariant>),
     /// Any of several kinds, distinguished by their TOML type.
-    Either(Vec<Kind>),
+    Either(Vec<ValueKind>),
     /// Anything: what it must be depends on other keys.
     Any,
     /// A table of any keys: what they may be depends on other keys.
@@ -65,13 +65,13 @@ pub(crate) enum Kind {
 
 /// Which numbers are allowed.
 #[derive(Clone, Copy)]
-pub(crate) struct Range {
+pub(crate) struct NumberRange {
     pub(crate) low: f64,
     pub(crate) low_allowed: bool,
     pub(crate) high: f64,
 }
 
-impl Range {
+impl NumberRange {
     /// Every number that could be intended.
     pub(crate) const ANY: Self = Self {
         low: -Self::HUGE,
@@ -115,7 +115,7 @@ impl Range {
     }
 }
 
-impl Kind {
+impl ValueKind {
     /// A description of a value of this kind, as a noun.
     pub(crate) fn words(&self) -> String {
         match self {
@@ -149,8 +149,8 @@ impl Kind {
     }
 
     /// Calls `see` with every key and its path, `[]` for the entries of a list.
-    pub(crate) fn visit<'a>(&'a self, path: &str, see: &mut dyn FnMut(&str, &'a Key)) {
-        let mut visit_table = |table: &'a Table| {
+    pub(crate) fn visit<'a>(&'a self, path: &str, see: &mut dyn FnMut(&str, &'a TableKey)) {
+        let mut visit_table = |table: &'a KeyTable| {
             for key in &table.keys {
                 let path = key.path(path);
                 see(&path, key);
@@ -186,7 +186,7 @@ impl Kind {
     }
 }
 
-impl Table {
+impl KeyTable {
     /// The keys, as the table would be written.
     fn braces(&self) -> String {
         let names: Vec<&str> = self.keys.iter().map(|key| key.name.as_str()).collect();

@@ -20,8 +20,10 @@ pub enum LoadError {
         source: io::Error,
     },
     /// The file has errors.
-    Invalid(Vec<Finding>),
+    Invalid(Vec<LocatedProblem>),
 }
+
+crate::refusal::always!(true: LoadError);
 
 impl Display for LoadError {
     fn fmt(&self, formatter: &mut Formatter<'_>) -> Result {
@@ -60,20 +62,20 @@ impl std::error::Error for LoadError {
 
 /// One problem and its place in the file.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Finding {
+pub struct LocatedProblem {
     /// What is wrong.
     pub message: String,
     /// The file.
     pub path: PathBuf,
     /// Where in the file; `None` for the file as a whole.
-    pub spot: Option<Spot>,
+    pub spot: Option<LineSpan>,
     /// What to do about it.
     pub help: Option<String>,
 }
 
 /// A part of one line of a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Spot {
+pub struct LineSpan {
     /// Line, from 1.
     pub line: usize,
     /// Column in characters, from 1.
@@ -84,7 +86,7 @@ pub struct Spot {
     pub text: String,
 }
 
-impl Finding {
+impl LocatedProblem {
     pub(super) fn new(
         message: String,
         path: &Path,
@@ -95,13 +97,13 @@ impl Finding {
         Self {
             message,
             path: path.to_owned(),
-            spot: span.map(|span| Spot::new(text, span)),
+            spot: span.map(|span| LineSpan::new(text, span)),
             help,
         }
     }
 }
 
-impl Spot {
+impl LineSpan {
     fn new(text: &str, span: Range<usize>) -> Self {
         // An error at the end of a file belongs to its last line, not to the line after it.
         let end = text.trim_end_matches(['\n', '\r']).len();
@@ -118,7 +120,7 @@ impl Spot {
     }
 }
 
-impl Display for Finding {
+impl Display for LocatedProblem {
     fn fmt(&self, formatter: &mut Formatter<'_>) -> Result {
         let Self {
             message,
@@ -129,7 +131,7 @@ impl Display for Finding {
         writeln!(formatter, "{message}")?;
         let mut gutter = 1;
         if let Some(spot) = spot {
-            let Spot {
+            let LineSpan {
                 line,
                 column,
                 width,

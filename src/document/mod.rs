@@ -15,9 +15,9 @@ pub(crate) mod text;
 mod tree;
 
 pub use difference::differing_keys;
-pub use load_error::{Finding, LoadError, Spot};
+pub use load_error::{LineSpan, LoadError, LocatedProblem};
 pub use problem::Problem;
-pub(crate) use quantity::{Attribute, Quantity, quantity, unit};
+pub(crate) use quantity::{Attribute, KeyQuantity, quantity, unit};
 pub(crate) use schema::Schema;
 pub(crate) use spelling::{any_of, number, one_of, quoted, suggest};
 pub(crate) use suggestion::{accepted, at_least, at_most, rounded_down, rounded_up};
@@ -35,12 +35,12 @@ pub(crate) struct Document {
     path: PathBuf,
     text: String,
     tree: Value,
-    places: BTreeMap<String, Place>,
+    places: BTreeMap<String, SourcePlace>,
 }
 
 /// Where a key is in the text, in bytes.
 #[derive(Clone, Debug)]
-struct Place {
+struct SourcePlace {
     /// The key itself; an entry of a list has none.
     key: Option<Range<usize>>,
     /// Its value; for a table, the header.
@@ -62,7 +62,7 @@ impl Document {
             let text = String::from_utf8_lossy(error.as_bytes());
             let help = "save the file as UTF-8 text".to_owned();
             let message = "this is not UTF-8 text".to_owned();
-            let finding = Finding::new(message, path, &text, Some(start..start), Some(help));
+            let finding = LocatedProblem::new(message, path, &text, Some(start..start), Some(help));
             LoadError::Invalid(vec![finding])
         })?;
         Self::parse(text, path)
@@ -171,7 +171,7 @@ impl Document {
         message: String,
         span: Option<Range<usize>>,
         help: Option<String>,
-    ) -> Finding {
-        Finding::new(message, &self.path, &self.text, span, help)
+    ) -> LocatedProblem {
+        LocatedProblem::new(message, &self.path, &self.text, span, help)
     }
 }

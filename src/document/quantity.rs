@@ -11,13 +11,13 @@ use schemars::transform::Transform;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
-/// Keyword of a schema that holds a [`Quantity`].
+/// Keyword of a schema that holds a [`KeyQuantity`].
 const KEYWORD: &str = "quantity";
 
 /// What a numeric key measures.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
-pub(crate) struct Quantity {
+pub(crate) struct KeyQuantity {
     /// Symbol; `_` makes a subscript of the next character or of a group in braces. Empty: none.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub(crate) symbol: String,
@@ -39,7 +39,7 @@ struct OtherUnit {
     unit: String,
 }
 
-impl Quantity {
+impl KeyQuantity {
     /// The quantity of a key with this schema, if its field declares one.
     pub(super) fn of(schema: &Value) -> Option<Self> {
         Self::deserialize(schema.get(KEYWORD)?).ok()
@@ -61,7 +61,7 @@ impl Quantity {
 
 /// The attribute of a numeric field: its quantity and its range.
 pub(crate) struct Attribute {
-    quantity: Quantity,
+    quantity: KeyQuantity,
     range: Map<String, Value>,
     word: Option<&'static str>,
 }
@@ -69,7 +69,7 @@ pub(crate) struct Attribute {
 /// A quantity that figures name by its symbol.
 pub(crate) fn quantity(symbol: &str, unit: &str, name: &str) -> Attribute {
     Attribute {
-        quantity: Quantity {
+        quantity: KeyQuantity {
             symbol: symbol.to_owned(),
             unit: unit.to_owned(),
             name: name.to_owned(),

@@ -1,8 +1,8 @@
 //! From a struct to the allowed contents of a file: its JSON schema, and the keys that are read
 //! from it.
 
-use super::kind::{Key, Kind, Range, Table, Variant};
-use super::quantity::Quantity;
+use super::kind::{KeyTable, NumberRange, TableKey, TagVariant, ValueKind};
+use super::quantity::KeyQuantity;
 use schemars::generate::SchemaSettings;
 use schemars::transform::transform_subschemas;
 use schemars::{JsonSchema, Schema as JsonSchemaOf};
@@ -14,7 +14,7 @@ pub(crate) struct Schema {
     /// The JSON schema, for editors.
     pub(crate) json: Value,
     /// The same for the program, which checks files with it.
-    pub(crate) kind: Kind,
+    pub(crate) kind: ValueKind,
 }
 
 impl Schema {
@@ -25,7 +25,7 @@ impl Schema {
         let mut schema = settings.into_generator().into_root_schema_for::<T>();
         tidy(&mut schema);
         let json = Value::from(schema);
-        let kind = Kind::of(&json);
+        let kind = ValueKind::of(&json);
         Self { json, kind }
     }
 }
@@ -92,7 +92,7 @@ fn with_words(schema: &mut Map<String, Value>) {
     schema.insert("description".to_owned(), json!(text));
 }
 
-impl Kind {
+impl ValueKind {
     fn of(schema: &Value) -> Self {
         let list = |keyword: &str| schema[keyword].as_array();
         if let Some(words) = list("enum") {
@@ -108,24 +108,24 @@ impl Kind {
             Some("string") => Self::Text,
             Some("boolean") => Self::Flag,
             Some("integer") => Self::Whole(schema["minimum"].as_u64().unwrap_or(0)),
-            Some("number") => Self::Number(Range::of(schema)),
+            Some("number") => Self::Number(NumberRange::of(schema)),
             Some("array") if schema["minItems"] == 3 => Self::Vector,
             Some("array") => Self::List(Box::new(Self::of(&schema["items"]))),
             Some("object") if schema["properties"].is_null() => {
                 match &schema["additionalProperties"] {
                     Value::Object(_) | Value::Bool(true) => Self::AnyTable,
-                    _ => Self::Table(Table::of(schema)),
+                    _ => Self::Table(KeyTable::of(schema)),
                 }
             }
             None if schema["properties"].is_null() => Self::Any,
-            _ => Self::Table(Table::of(schema)),
+            _ => Self::Table(KeyTable::of(schema)),
         }
     }
 
     fn tagged(variants: &[Value]) -> Self {
         let mut tag = String::new();
         let variants = variants.iter().map(|schema| {
-            let mut table = Table::of(schema);
+            let mut table = KeyTable::of(schema);
             let mut word = String::new();
             table.keys.retain(|key| {
                 let constant = schema["properties"][&key.name]["const"].as_str();
@@ -134,27 +134,27 @@ impl Kind {
                 }
                 constant.is_none()
             });
-            Variant { word, table }
+            TagVariant { word, table }
         });
         let variants = variants.collect();
         Self::Tagged(tag, variants)
     }
 }
 
-impl Table {
+impl KeyTable {
     fn of(schema: &Value) -> Self {
         let needed = |name: &str| {
             let needed = schema["required"].as_array();
             needed.is_some_and(|names| names.iter().any(|needed| needed == name))
         };
         let keys = schema["properties"].as_object().into_iter().flatten();
-        let keys = keys.map(|(name, schema)| Key {
+        let keys = keys.map(|(name, schema)| TableKey {
             name: name.clone(),
-            kind: Kind::of(schema),
+            kind: ValueKind::of(schema),
             needed: needed(name),
             description: text(&schema["description"]),
             default: schema.get("default").cloned(),
-            quantity: Quantity::of(schema),
+            quantity: KeyQuantity::of(schema),
         });
         Self {
             description: text(&schema["description"]),
@@ -163,7 +163,7 @@ impl Table {
     }
 }
 
-impl Range {
+impl NumberRange {
     fn of(schema: &Value) -> Self {
         let [low, above, high] =
             ["minimum", "exclusiveMinimum", "maximum"].map(|keyword| schema[keyword].as_f64());

@@ -1,6 +1,6 @@
 //! From parsed TOML to a plain tree of values and the places of its keys.
 
-use super::Place;
+use super::SourcePlace;
 use serde_json::{Number, Value};
 use std::collections::BTreeMap;
 use toml::Spanned;
@@ -10,7 +10,7 @@ use toml::de::{DeInteger, DeTable, DeValue};
 pub(super) fn of_table(
     table: &DeTable<'_>,
     path: &str,
-    places: &mut BTreeMap<String, Place>,
+    places: &mut BTreeMap<String, SourcePlace>,
 ) -> Value {
     let entries = table.iter().map(|(key, value)| {
         let name = key.get_ref().to_string();
@@ -19,7 +19,7 @@ pub(super) fn of_table(
         } else {
             format!("{path}.{name}")
         };
-        let place = Place {
+        let place = SourcePlace {
             key: Some(key.span()),
             value: value.span(),
         };
@@ -32,7 +32,7 @@ pub(super) fn of_table(
 fn of_value(
     value: &Spanned<DeValue<'_>>,
     path: &str,
-    places: &mut BTreeMap<String, Place>,
+    places: &mut BTreeMap<String, SourcePlace>,
 ) -> Value {
     match value.get_ref() {
         DeValue::String(text) => Value::String(text.to_string()),
@@ -44,7 +44,7 @@ fn of_value(
         DeValue::Array(entries) => {
             let entries = entries.iter().enumerate().map(|(index, entry)| {
                 let path = format!("{path}[{index}]");
-                let place = Place {
+                let place = SourcePlace {
                     key: None,
                     value: entry.span(),
                 };

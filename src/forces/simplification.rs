@@ -26,7 +26,7 @@ impl Simplification {
         }
     }
 
-    /// The same without some keys besides.
+    /// The same, also without some keys.
     pub(crate) fn removing<const N: usize>(mut self, keys: [&'static str; N]) -> Self {
         self.remove.extend(keys);
         self

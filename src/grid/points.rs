@@ -17,6 +17,8 @@ pub struct PointError {
     pub problems: Vec<Problem>,
 }
 
+crate::refusal::always!(true: PointError);
+
 /// The points of a grid, in order: the first axis varies slowest.
 pub(crate) fn points(axes: &[Axis]) -> impl Iterator<Item = Vec<f64>> {
     (0..number_of_points(axes)).map(move |index| point_at(axes, index))

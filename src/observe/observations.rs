@@ -112,8 +112,8 @@ macro_rules! scalars {
 scalars! {
     kinetic "J" "Translational kinetic energy of all spheres and their added mass";
     rotational "J" "Rotational kinetic energy of all spheres";
-    gravitational "J" "Gravitational energy m g z of all spheres, less buoyancy";
-    elastic "J" "Elastic energy of all contacts, that of tangential springs left out";
+    gravitational "J" "Gravitational energy m g z of all spheres, minus buoyancy";
+    elastic "J" "Elastic energy of all contacts, without tangential springs";
     height_mean "m" "Mean height z of the centres";
     height_max "m" "Height z of the highest centre";
     hole_radius "m" "Distance from the axis of the centre next to it";
@@ -126,7 +126,7 @@ scalars! {
         "Root mean square velocity relative to rigid rotation at that rate and to the mean \
          vertical velocity";
     released "1" "Number of spheres that came in";
-    discharged "1" "Number of spheres that left, but for those that spilled";
+    discharged "1" "Number of spheres that left, without those that spilled";
     spilled "1" "Number of spheres that left while the door was still closed: over the rim";
     discharge_rate "1/s"
         "Number of spheres that left per second, over the last second or since the start";
@@ -136,13 +136,14 @@ scalars! {
     dissipated_by_damping "J" "Energy that the damping of contacts dissipated since the start";
     dissipated_by_friction "J"
         "Energy that friction dissipated since the start: work against tangential forces that \
-         springs do not hold";
-    work_of_air "J" "Work of the air on the spheres since the start, the damping of spins included";
+            springs do not store";
+    work_of_air "J" "Work of the air on the spheres since the start, including the damping of \
+        spins";
     energy_brought "J"
-        "Energy of the spheres that came in since the start, less that of those that left";
+        "Energy of spheres that came in since the start, minus the energy of spheres that left";
     residual "J"
-        "All energy and what was dissipated, less what the air and new spheres brought, less the \
-         same at the start: what the integrator got wrong";
+        "All energy plus dissipation, minus the energy from air and new spheres, minus the same at \
+            the start: the error of the integrator";
 }
 
 impl Observations {

@@ -124,7 +124,7 @@ pub(super) fn states(source: &Source<'_>) -> Result<Vec<usize>, PlotError> {
         let point = nearest_to_middle(source, &candidates)?;
         point.rows.iter().copied().find(|&row| has(row, label))
     };
-    let labels = source.table.family.labels.iter().copied();
+    let labels = source.table.family.labels().into_iter();
     Ok(labels
         .filter(|label| *label != Label::UNSTABLE)
         .filter_map(typical)

@@ -8,7 +8,7 @@ use super::grid::Grid;
 use super::style::Fill;
 use super::svg::Svg;
 use super::{Figure, PlotError, Source};
-use crate::classify::{FAMILIES, Family, Measure, Point, Range};
+use crate::classify::{FAMILIES, Family, Measure, MeasureRange, Point};
 use crate::scene::Units;
 use crate::statistics::{Estimate, mean_share_interval};
 use plotters::style::RGBColor;
@@ -60,9 +60,9 @@ impl Map {
         let bar = Bar::about((x, value), half_width, color);
         let ends = match self.measure.range {
             // One run says nothing of its scatter.
-            Range::Share if values.len() > 1 => mean_share_interval(values)?,
-            Range::Share | Range::Part => bar.ends().map(|end| end.clamp(0.0, 1.0)),
-            Range::Any | Range::Signed => return Some(bar),
+            MeasureRange::Share if values.len() > 1 => mean_share_interval(values)?,
+            MeasureRange::Share | MeasureRange::Part => bar.ends().map(|end| end.clamp(0.0, 1.0)),
+            MeasureRange::Any | MeasureRange::Signed => return Some(bar),
         };
         Some(Bar::between(bar.at, ends, color))
     }
@@ -101,7 +101,11 @@ impl Figure for Map {
             .flat_map(|panel| panel.cells.iter().flatten());
         let values = points.filter_map(|point| self.mean(source, point));
         let label = self.label(source.sweep.scene.units());
-        let bar = ColorBar::new(values, self.measure.range == Range::Signed, label.clone());
+        let bar = ColorBar::new(
+            values,
+            self.measure.range == MeasureRange::Signed,
+            label.clone(),
+        );
         Diagram {
             name: self.name,
             grid: &grid,

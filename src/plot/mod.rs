@@ -59,6 +59,7 @@ use crate::classify::Family;
 use crate::classify::LabelTable;
 use crate::record::{Program, RunRecord};
 use crate::refine::RefineError;
+use crate::refusal::Refusal;
 use crate::store::{DataSet, StoreError};
 use crate::sweep::{Refining, SelectError, Selection, Sweep};
 
@@ -391,9 +392,8 @@ pub enum PlotError {
     Png(String),
 }
 
-impl PlotError {
-    /// Whether the request is at fault: a figure, point or effect that does not exist here.
-    pub fn is_of_request(&self) -> bool {
+impl Refusal for PlotError {
+    fn is_refusal(&self) -> bool {
         matches!(
             self,
             Self::UnknownFigure { .. }

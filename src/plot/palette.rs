@@ -150,13 +150,13 @@ mod tests {
 
     /// All pairs of states that one diagram may show.
     fn pairs() -> Vec<(Label, Label)> {
-        let families = FAMILIES.into_iter().map(|family| family.labels);
-        let of_family = |labels: &'static [Label]| {
-            let pair = move |index: usize| {
+        let families = FAMILIES.into_iter().map(|family| family.labels());
+        let of_family = |labels: Vec<Label>| {
+            let pairs = labels.iter().enumerate().flat_map(|(index, one)| {
                 let others = labels[index + 1..].iter();
-                others.map(move |other| (labels[index], *other))
-            };
-            (0..labels.len()).flat_map(pair)
+                others.map(|other| (*one, *other))
+            });
+            pairs.collect::<Vec<_>>()
         };
         families.flat_map(of_family).collect()
     }
@@ -184,9 +184,9 @@ mod tests {
     fn states_of_a_family_stay_apart_in_grey() {
         for family in FAMILIES {
             let mut shades: Vec<f64> = family
-                .labels
-                .iter()
-                .map(|it| lightness(state(*it)))
+                .labels()
+                .into_iter()
+                .map(|it| lightness(state(it)))
                 .collect();
             shades.sort_by(f64::total_cmp);
             let steps = shades.windows(2).map(|pair| pair[1] - pair[0]);
@@ -199,16 +199,15 @@ mod tests {
 
     #[test]
     fn states_of_a_tank_get_darker_in_order() {
-        let shades = TANK.labels[1..]
-            .iter()
-            .map(|label| -lightness(state(*label)));
+        let labels = TANK.labels().into_iter().skip(1);
+        let shades = labels.map(|label| -lightness(state(label)));
         assert!(shades.is_sorted());
     }
 
     #[test]
     fn numerical_labels_and_lines_stay_apart_for_every_vision_and_in_grey() {
-        let numerical = NUMERICS.labels.iter().rev();
-        let numerical: Vec<RGBColor> = numerical.map(|label| state(*label)).collect();
+        let numerical = NUMERICS.labels().into_iter().rev();
+        let numerical: Vec<RGBColor> = numerical.map(state).collect();
         for colors in [&LINES[..], &numerical] {
             for pair in colors.windows(2) {
                 apart_for_every_vision(pair[0], pair[1]);

@@ -45,10 +45,10 @@ pub(super) fn with_diagram(
         let mut points = points.iter();
         points.any(|point| has_majority(point) && point.label == *label)
     };
-    let labels = source.table.family.labels.iter();
+    let labels = source.table.family.labels().into_iter();
     let mut legend: Vec<Entry> = labels
         .filter(|label| occurs(label))
-        .map(|label| Entry::new(Key::Fill(fill(*label)), &label.name.replace('-', " ")))
+        .map(|label| Entry::new(Key::Fill(fill(label)), &label.name.replace('-', " ")))
         .collect();
     legend.extend(of_disagreement(&points));
     let is_unsteady = |point: &Point| source.table.is_unsteady(point);

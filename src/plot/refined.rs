@@ -197,14 +197,14 @@ fn curves(
     let of_panel = |(panel, place): (&Panel<Cell>, &usize)| {
         let mut curves = Vec::new();
         if let Some(y) = &grid.y {
-            let plane = refine::Panel {
+            let plane = refine::LatticePlane {
                 lattice: &learnt.lattice,
                 map: &learnt.map,
                 x: grid.x.index,
                 y: y.index,
                 place: *place,
             };
-            let shown = |curve: refine::Curve| {
+            let shown = |curve: refine::BorderCurve| {
                 let points = curve.into_iter();
                 points
                     .map(|[at, height]| (grid.x.show(at), y.show(height)))
@@ -224,11 +224,11 @@ fn curves(
 
 /// The fill of a label with this certainty.
 fn fill(source: &Source<'_>, code: Code, certainty: f64) -> Fill {
-    let mut labels = source.table.family.labels.iter();
+    let mut labels = source.table.family.labels().into_iter();
     let Some(label) = labels.find(|label| label.code == code) else {
         return Fill::Stipple;
     };
-    match phase::fill(*label) {
+    match phase::fill(label) {
         Fill::Color(color) => {
             let mut bounds = BOUNDS.iter().zip(SHADES);
             let shade = bounds.find(|(bound, _)| certainty < **bound);
@@ -262,7 +262,7 @@ fn mark(source: &Source<'_>, cell: Cell, code: Code) -> RGBColor {
 
 /// Entries of the legend but for curves.
 fn legend(source: &Source<'_>, cells: &[Cell]) -> Vec<Entry> {
-    let labels = source.table.family.labels.iter();
+    let labels = source.table.family.labels().into_iter();
     let occurs = |code: Code| cells.iter().any(|cell| cell.code == code);
     let names = labels.map(|label| (label.code, label.name.replace('-', " ")));
     let names: Vec<(Code, String)> = names

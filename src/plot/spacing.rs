@@ -1,6 +1,6 @@
 //! How far apart the values of an axis stand.
 
-use crate::refine::{self, Axis};
+use crate::refine::{self, LatticeAxis};
 
 /// How far apart the values of an axis stand.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -11,7 +11,7 @@ pub(super) enum Spacing {
     /// By their ratios; all are above zero.
     Logarithmic,
     /// The values of this axis at equal distances, all others between them by differences.
-    Equal(Axis),
+    Equal(LatticeAxis),
 }
 
 impl Spacing {
@@ -20,7 +20,7 @@ impl Spacing {
         if values.len() < 2 {
             return Self::Linear;
         }
-        Axis::new("", values, refine::Scale::Rank).map_or(Self::Linear, Self::Equal)
+        LatticeAxis::new("", values, refine::AxisScale::Rank).map_or(Self::Linear, Self::Equal)
     }
 
     /// Whether values stand by their ratios.

@@ -1,26 +1,26 @@
 //! The page of all keys.
 
-use super::File;
-use crate::document::kind::{Key, Kind, Table};
+use super::InputFile;
+use crate::document::kind::{KeyTable, TableKey, ValueKind};
 use serde_json::Value;
 
 const INTRODUCTION: &str = "\
 # Keys of scene, sweep and study files
 
-This page is made by `phase reference keys`. Units are SI throughout, angles are in radians, z
-points up, and the tank's axis is the z axis. A key whose default is *needed* must be there; one
-without a default may be left out, which then means what its description says.
+This page is made by `phase generate reference keys`. Units are SI throughout, angles are in
+radians, z points up, and the tank's axis is the z axis. A key whose default is *needed* must be
+there; one without a default may be left out, which then means what its description says.
 ";
 
 /// The page of all keys of all files, in Markdown: type, unit, default, description.
 pub fn keys() -> String {
-    let mut page = Page(INTRODUCTION.to_owned());
-    for file in File::ALL {
+    let mut page = KeysPage(INTRODUCTION.to_owned());
+    for file in InputFile::ALL {
         let heading = match file {
-            File::Scene => "Scene files",
-            File::Sweep => "Sweep files",
-            File::Stability => "Studies of stability",
-            File::Accuracy => "Studies of accuracy",
+            InputFile::Scene => "Scene files",
+            InputFile::Sweep => "Sweep files",
+            InputFile::Stability => "Studies of stability",
+            InputFile::Accuracy => "Studies of accuracy",
         };
         page.0 += &format!("\n## {heading}\n\n");
         page.tables("", &file.schema().kind);
@@ -29,41 +29,41 @@ pub fn keys() -> String {
 }
 
 /// The page so far.
-struct Page(String);
+struct KeysPage(String);
 
-impl Page {
+impl KeysPage {
     /// The tables of keys that a value at `path` may have.
-    fn tables(&mut self, path: &str, kind: &Kind) {
+    fn tables(&mut self, path: &str, kind: &ValueKind) {
         match kind {
-            Kind::Table(table) => {
+            ValueKind::Table(table) => {
                 if !path.is_empty() {
                     self.0 += &format!("\n### {}\n\n", heading(path));
                 }
                 self.table(path, None, table);
             }
-            Kind::Tagged(tag, variants) => {
+            ValueKind::Tagged(tag, variants) => {
                 for variant in variants {
                     let word = &variant.word;
                     self.0 += &format!("\n### {} with `{tag} = \"{word}\"`\n\n", heading(path));
                     self.table(path, Some((tag, word)), &variant.table);
                 }
             }
-            Kind::List(entry) => self.tables(&format!("{path}[]"), entry),
+            ValueKind::List(entry) => self.tables(&format!("{path}[]"), entry),
             // A scene within a sweep has a separate chapter.
-            Kind::Either(_) if path == "scene" => {}
-            Kind::Either(kinds) => kinds.iter().for_each(|kind| self.tables(path, kind)),
-            Kind::Text
-            | Kind::Flag
-            | Kind::Number(_)
-            | Kind::Whole(_)
-            | Kind::Choice(_)
-            | Kind::Vector
-            | Kind::Any
-            | Kind::AnyTable => {}
+            ValueKind::Either(_) if path == "scene" => {}
+            ValueKind::Either(kinds) => kinds.iter().for_each(|kind| self.tables(path, kind)),
+            ValueKind::Text
+            | ValueKind::Flag
+            | ValueKind::Number(_)
+            | ValueKind::Whole(_)
+            | ValueKind::Choice(_)
+            | ValueKind::Vector
+            | ValueKind::Any
+            | ValueKind::AnyTable => {}
         }
     }
 
-    fn table(&mut self, path: &str, tag: Option<(&str, &str)>, table: &Table) {
+    fn table(&mut self, path: &str, tag: Option<(&str, &str)>, table: &KeyTable) {
         if let Some(text) = &table.description {
             self.0 += &format!("{}\n\n", text.replace('\n', "\n\n"));
         }
@@ -103,11 +103,13 @@ fn heading(path: &str) -> String {
     }
 }
 
-fn type_words(kind: &Kind) -> String {
+fn type_words(kind: &ValueKind) -> String {
     match kind {
-        Kind::Table(_) | Kind::Tagged(..) => "a table".to_owned(),
-        Kind::List(entry) if matches!(**entry, Kind::Table(_)) => "a list of tables".to_owned(),
-        Kind::Either(kinds) => {
+        ValueKind::Table(_) | ValueKind::Tagged(..) => "a table".to_owned(),
+        ValueKind::List(entry) if matches!(**entry, ValueKind::Table(_)) => {
+            "a list of tables".to_owned()
+        }
+        ValueKind::Either(kinds) => {
             let kinds: Vec<String> = kinds.iter().map(type_words).collect();
             kinds.join(", or ")
         }
@@ -115,7 +117,7 @@ fn type_words(kind: &Kind) -> String {
     }
 }
 
-fn default(key: &Key) -> String {
+fn default(key: &TableKey) -> String {
     match &key.default {
         _ if key.needed => "*needed*".to_owned(),
         None => String::new(),
@@ -128,18 +130,18 @@ fn default(key: &Key) -> String {
 mod tests {
     use super::*;
 
-    fn is_number(kind: &Kind) -> bool {
+    fn is_number(kind: &ValueKind) -> bool {
         match kind {
-            Kind::Number(_) | Kind::Vector => true,
-            Kind::List(entry) => is_number(entry),
-            Kind::Either(kinds) => kinds.iter().any(is_number),
+            ValueKind::Number(_) | ValueKind::Vector => true,
+            ValueKind::List(entry) => is_number(entry),
+            ValueKind::Either(kinds) => kinds.iter().any(is_number),
             _ => false,
         }
     }
 
     #[test]
     fn every_key_has_a_description_and_every_number_a_unit() {
-        for file in File::ALL {
+        for file in InputFile::ALL {
             let mut seen = 0;
             file.schema().kind.visit("", &mut |path, key| {
                 seen += 1;

@@ -16,7 +16,7 @@ use serde_json::{Value, json};
 
 /// A kind of file that the program reads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum File {
+pub enum InputFile {
     /// One simulation.
     Scene,
     /// A scene and its axes.
@@ -27,7 +27,7 @@ pub enum File {
     Accuracy,
 }
 
-impl File {
+impl InputFile {
     /// All kinds of files.
     pub const ALL: [Self; 4] = [Self::Scene, Self::Sweep, Self::Stability, Self::Accuracy];
 
@@ -55,7 +55,7 @@ impl File {
 ///
 /// It refuses what the loader refuses for a single key: unknown and missing keys, wrong types,
 /// numbers out of range. Only the loader finds problems that concern several keys.
-pub fn schema(file: File) -> Value {
+pub fn schema(file: InputFile) -> Value {
     let mut schema = file.schema().json.clone();
     schema["title"] = json!(format!("phase {} file", file.name()));
     need_times_without_accuracy(&mut schema);

@@ -1,13 +1,13 @@
 //! The table of symbols.
 
-use crate::document::Quantity;
+use crate::document::KeyQuantity;
 use crate::scene::SCENE;
 
 const INTRODUCTION: &str = "\
 # Notation
 
 Symbol, unit and name of every numeric key of a scene, as figures write them. This page is made by
-`phase reference notation`.
+`phase generate reference notation`.
 
 | symbol | quantity | unit | key |
 |---|---|---|---|
@@ -16,7 +16,7 @@ Symbol, unit and name of every numeric key of a scene, as figures write them. Th
 /// The table of symbols, in Markdown.
 pub fn notation() -> String {
     // Several laws may have keys with the same name but different units.
-    let mut rows: Vec<(String, &Quantity, Vec<&str>)> = Vec::new();
+    let mut rows: Vec<(String, &KeyQuantity, Vec<&str>)> = Vec::new();
     SCENE.kind.visit("", &mut |path, key| {
         let Some(quantity) = key.quantity.as_ref().filter(|it| !it.symbol.is_empty()) else {
             return;
@@ -33,7 +33,7 @@ pub fn notation() -> String {
             .collect();
         units.extend(new);
     });
-    let row = |(path, quantity, units): &(String, &Quantity, Vec<&str>)| {
+    let row = |(path, quantity, units): &(String, &KeyQuantity, Vec<&str>)| {
         let symbol = subscripts(&quantity.symbol);
         // The bars of an absolute value would end a cell.
         let name = quantity.name.replace('|', "\\|");

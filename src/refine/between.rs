@@ -3,7 +3,7 @@
 
 /// A change of the most probable label on the way from one place to another.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Change {
+pub(super) struct LabelChange {
     /// Where it is, as a fraction of the distance.
     pub(super) share: f64,
     /// The label before it and the label after it, as indices.
@@ -28,10 +28,10 @@ pub(super) fn equal(logs: [&[f64]; 2], one: usize, other: usize) -> f64 {
 }
 
 /// The changes of the most probable label on the way between two places, in their order.
-pub(super) fn changes(logs: [&[f64]; 2]) -> Vec<Change> {
+pub(super) fn changes(logs: [&[f64]; 2]) -> Vec<LabelChange> {
     let [from, to] = logs;
     let labels = 0..from.len();
-    let mut changes: Vec<Change> = Vec::new();
+    let mut changes: Vec<LabelChange> = Vec::new();
     let ahead = |best: usize, label: usize| match is_ahead(from, label, best) {
         true => label,
         false => best,
@@ -53,7 +53,7 @@ pub(super) fn changes(logs: [&[f64]; 2]) -> Vec<Change> {
             return changes;
         };
         let before = changes.last().map_or(0.0, |change| change.share);
-        changes.push(Change {
+        changes.push(LabelChange {
             share: share.max(before),
             labels: [best, label],
         });

@@ -85,7 +85,7 @@ impl Borders {
                 indices[axis] = index;
                 lattice.place(&indices)
             });
-            let column = Column {
+            let column = LatticeColumn {
                 logs: places.map(|place| map.logs(place)).collect(),
                 units: &units,
             };
@@ -159,13 +159,13 @@ pub fn widths(lattice: &Lattice, map: &ProbabilityMap) -> Vec<Width> {
 }
 
 /// Places along the axis that is crossed.
-struct Column<'a> {
+struct LatticeColumn<'a> {
     /// Logarithms of the probabilities of all labels.
     logs: Vec<Vec<f64>>,
     units: &'a [f64],
 }
 
-impl Column<'_> {
+impl LatticeColumn<'_> {
     /// Logarithms at places `step - 1` and `step`.
     fn logs(&self, step: usize) -> [&[f64]; 2] {
         [&self.logs[step - 1], &self.logs[step]]

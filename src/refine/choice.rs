@@ -1,7 +1,7 @@
 //! The choice of the places to run next.
 
 use super::lattice::square_distance;
-use super::{Lattice, Observations, ProbabilityMap, Run, Settings};
+use super::{Lattice, Observations, ProbabilityMap, Settings, Trial};
 
 /// How much a run at a place is wanted, from 0 to 1: more if the probabilities of the two most
 /// probable labels differ less.
@@ -14,7 +14,7 @@ fn score(map: &ProbabilityMap, place: usize) -> f64 {
 }
 
 /// The state of each place while a round is chosen.
-pub(super) struct Candidates<'a> {
+pub(super) struct CandidatePlaces<'a> {
     lattice: &'a Lattice,
     settings: &'a Settings,
     /// How much a run is wanted, reduced by nearby runs of the round.
@@ -27,7 +27,7 @@ pub(super) struct Candidates<'a> {
     separation: f64,
 }
 
-impl<'a> Candidates<'a> {
+impl<'a> CandidatePlaces<'a> {
     pub(super) fn new(
         lattice: &'a Lattice,
         runs: &Observations,
@@ -86,7 +86,7 @@ impl<'a> Candidates<'a> {
     }
 
     /// Adds a run at a place, with its first unused seed.
-    pub(super) fn take(&mut self, place: usize) -> Run {
+    pub(super) fn take(&mut self, place: usize) -> Trial {
         let first = self.settings.first_seed;
         let seeds = &self.seeds[place];
         let mut tried = first..=first.saturating_add(seeds.len() as u64);
@@ -97,7 +97,7 @@ impl<'a> Candidates<'a> {
             let square = square_distance(self.lattice.unit(other), &unit);
             self.scores[other] *= -libm::expm1(-0.5 * square / self.separation);
         }
-        Run {
+        Trial {
             values: self.lattice.values(place),
             seed,
         }

@@ -10,11 +10,11 @@ use super::{Code, Lattice, ProbabilityMap};
 use std::collections::BTreeMap;
 
 /// Points (x, y) of a curve, in the units of the axes; a closed one ends where it starts.
-pub type Curve = Vec<[f64; 2]>;
+pub type BorderCurve = Vec<[f64; 2]>;
 
 /// A plane of two axes through a lattice.
 #[derive(Clone, Copy, Debug)]
-pub struct Panel<'a> {
+pub struct LatticePlane<'a> {
     /// The axes and places.
     pub lattice: &'a Lattice,
     /// Probabilities at all places.
@@ -40,7 +40,7 @@ enum Vertex {
 }
 
 /// A point of a curve, in the scales of the axes.
-type Point = (Vertex, [f64; 2]);
+type CurvePoint = (Vertex, [f64; 2]);
 
 /// A triangle: its nodes, and the values there of functions that are linear in it.
 struct Triangle<'a> {
@@ -50,9 +50,9 @@ struct Triangle<'a> {
     values: [&'a [f64]; 3],
 }
 
-impl Panel<'_> {
+impl LatticePlane<'_> {
     /// The border of two labels: where they are the most probable labels, equally so.
-    pub fn border(&self, one: Code, other: Code) -> Vec<Curve> {
+    pub fn border(&self, one: Code, other: Code) -> Vec<BorderCurve> {
         let (Some(one), Some(other)) = (self.label(one), self.label(other)) else {
             return Vec::new();
         };
@@ -63,7 +63,7 @@ impl Panel<'_> {
 
     /// Where a label has this probability (between 0 and 1). For a band of 95 % between two labels
     /// the levels are 0.025 and 0.975, for one of 68 % 0.16 and 0.84.
-    pub fn level(&self, label: Code, probability: f64) -> Vec<Curve> {
+    pub fn level(&self, label: Code, probability: f64) -> Vec<BorderCurve> {
         let Some(label) = self.label(label) else {
             return Vec::new();
         };
@@ -82,8 +82,8 @@ impl Panel<'_> {
     fn contour(
         &self,
         values: impl Fn(usize) -> Vec<f64>,
-        piece: impl Fn(&Triangle<'_>) -> Option<[Point; 2]>,
-    ) -> Vec<Curve> {
+        piece: impl Fn(&Triangle<'_>) -> Option<[CurvePoint; 2]>,
+    ) -> Vec<BorderCurve> {
         let [across, up] = [self.x, self.y].map(|axis| {
             let axis = &self.lattice.axes()[axis];
             let units = axis.values().iter().map(|value| axis.unit(*value));
@@ -149,13 +149,13 @@ impl Panel<'_> {
 
 impl Triangle<'_> {
     /// Where two functions, the smaller index first, are equal: from edge to edge.
-    fn line(&self, labels: [usize; 2]) -> Option<[Point; 2]> {
+    fn line(&self, labels: [usize; 2]) -> Option<[CurvePoint; 2]> {
         let [from, to] = self.ends(labels)?;
         Some([self.on(from, labels), self.on(to, labels)])
     }
 
     /// The part of the line on which no other function is greater.
-    fn border(&self, labels: [usize; 2]) -> Option<[Point; 2]> {
+    fn border(&self, labels: [usize; 2]) -> Option<[CurvePoint; 2]> {
         let [one, other] = labels;
         let edges = self.ends(labels)?;
         let mut ends = edges.map(|edge| self.on(edge, labels));
@@ -204,7 +204,7 @@ impl Triangle<'_> {
     }
 
     /// The point of an edge where two functions are equal.
-    fn on(&self, edge: [usize; 2], labels: [usize; 2]) -> Point {
+    fn on(&self, edge: [usize; 2], labels: [usize; 2]) -> CurvePoint {
         let share = self.share(edge, labels);
         let [from, to] = edge.map(|node| self.units[node]);
         let unit = [0, 1].map(|axis| from[axis] + share * (to[axis] - from[axis]));

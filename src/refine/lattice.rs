@@ -4,7 +4,7 @@ use super::RefineError;
 
 /// How an axis is stretched before distances are measured on it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Scale {
+pub enum AxisScale {
     /// Equal differences are equal distances.
     Linear,
     /// Equal ratios are equal distances; all values are above 0.
@@ -15,19 +15,19 @@ pub enum Scale {
 
 /// One axis: a parameter of the runs and the values of candidates for runs.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Axis {
+pub struct LatticeAxis {
     name: String,
     values: Vec<f64>,
-    scale: Scale,
+    scale: AxisScale,
 }
 
-impl Axis {
+impl LatticeAxis {
     /// An axis with these values in ascending order, in any unit.
     ///
     /// # Errors
     /// If there are no values, if they are not finite or do not ascend, or if they are not above 0
     /// on a logarithmic axis.
-    pub fn new(name: &str, values: Vec<f64>, scale: Scale) -> Result<Self, RefineError> {
+    pub fn new(name: &str, values: Vec<f64>, scale: AxisScale) -> Result<Self, RefineError> {
         let refuse = |reason| {
             let name = name.to_owned();
             Err(RefineError::Axis { name, reason })
@@ -41,7 +41,7 @@ impl Axis {
         if values.windows(2).any(|pair| pair[0] >= pair[1]) {
             return refuse("the values do not ascend");
         }
-        if scale == Scale::Log && values[0] <= 0.0 {
+        if scale == AxisScale::Log && values[0] <= 0.0 {
             return refuse("a logarithmic axis needs values above 0");
         }
         Ok(Self {
@@ -61,8 +61,8 @@ impl Axis {
             values.extend((1..parts).map(|part| {
                 let share = part as f64 / parts as f64;
                 match self.scale {
-                    Scale::Log => pair[0] * libm::pow(pair[1] / pair[0], share),
-                    Scale::Linear | Scale::Rank => pair[0] + (pair[1] - pair[0]) * share,
+                    AxisScale::Log => pair[0] * libm::pow(pair[1] / pair[0], share),
+                    AxisScale::Linear | AxisScale::Rank => pair[0] + (pair[1] - pair[0]) * share,
                 }
             }));
         }
@@ -84,7 +84,7 @@ impl Axis {
     }
 
     /// Its scale.
-    pub fn scale(&self) -> Scale {
+    pub fn scale(&self) -> AxisScale {
         self.scale
     }
 
@@ -97,9 +97,9 @@ impl Axis {
             return 0.0;
         }
         match self.scale {
-            Scale::Linear => (value - from) / (to - from),
-            Scale::Log => libm::log(value / from) / libm::log(to / from),
-            Scale::Rank => {
+            AxisScale::Linear => (value - from) / (to - from),
+            AxisScale::Log => libm::log(value / from) / libm::log(to / from),
+            AxisScale::Rank => {
                 let step = self.values[1..last].partition_point(|it| *it <= value);
                 let (low, high) = (self.values[step], self.values[step + 1]);
                 (step as f64 + (value - low) / (high - low)) / last as f64
@@ -107,7 +107,7 @@ impl Axis {
         }
     }
 
-    /// The value at a place between 0 and 1: the inverse of [`Axis::unit`].
+    /// The value at a place between 0 and 1: the inverse of [`LatticeAxis::unit`].
     pub fn value(&self, unit: f64) -> f64 {
         let last = self.values.len() - 1;
         let (from, to) = (self.values[0], self.values[last]);
@@ -115,9 +115,9 @@ impl Axis {
             return from;
         }
         match self.scale {
-            Scale::Linear => from + (to - from) * unit,
-            Scale::Log => from * libm::pow(to / from, unit),
-            Scale::Rank => {
+            AxisScale::Linear => from + (to - from) * unit,
+            AxisScale::Log => from * libm::pow(to / from, unit),
+            AxisScale::Rank => {
                 let place = unit * last as f64;
                 let step = (place.max(0.0) as usize).min(last - 1);
                 let (low, high) = (self.values[step], self.values[step + 1]);
@@ -131,7 +131,7 @@ impl Axis {
 /// the last axis changes fastest.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lattice {
-    axes: Vec<Axis>,
+    axes: Vec<LatticeAxis>,
     /// Places on the unit cube, one after the other.
     units: Vec<f64>,
 }
@@ -141,7 +141,7 @@ impl Lattice {
     ///
     /// # Errors
     /// If there are no axes, or more than 2³² places.
-    pub fn new(axes: Vec<Axis>) -> Result<Self, RefineError> {
+    pub fn new(axes: Vec<LatticeAxis>) -> Result<Self, RefineError> {
         let refuse = |name: &str, reason| {
             let name = name.to_owned();
             Err(RefineError::Axis { name, reason })
@@ -174,7 +174,7 @@ impl Lattice {
     }
 
     /// The axes.
-    pub fn axes(&self) -> &[Axis] {
+    pub fn axes(&self) -> &[LatticeAxis] {
         &self.axes
     }
 

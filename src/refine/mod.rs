@@ -3,7 +3,7 @@
 //! Most runs of a full grid are far from any border between labels. Here a coarse grid is run
 //! first, and then rounds of runs where the label is least certain. The result is the probability
 //! of each label at each place ([`ProbabilityMap`]), and the borders with bands ([`Borders`],
-//! [`Panel`]). Bands include both the uncertainty from too few runs and the scatter of seeds.
+//! [`LatticePlane`]). Bands include the uncertainty from too few runs and the scatter of seeds.
 //!
 //! Everything is a function of the axes, the settings and the labels only. Mathematical functions
 //! come from `libm`, all sums have a fixed order, and there are no threads: bits are the same on
@@ -51,12 +51,12 @@ mod rounds;
 mod settings;
 
 pub use borders::{Borders, Crossing, Width, widths};
-pub use curves::{Curve, Panel};
+pub use curves::{BorderCurve, LatticePlane};
 pub use error::RefineError;
 pub use gap::Gap;
-pub use lattice::{Axis, Lattice, Scale};
+pub use lattice::{AxisScale, Lattice, LatticeAxis};
 pub use map::ProbabilityMap;
-pub use observations::{Observations, Run, Training};
+pub use observations::{Observations, Training, Trial};
 pub(crate) use rounds::start;
 pub use rounds::{Finish, Round, Rounds, probabilities};
 pub use settings::{ModelKind, Settings};

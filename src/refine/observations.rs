@@ -6,14 +6,14 @@ use std::cmp::Ordering;
 
 /// A run: its place and its seed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Run {
+pub struct Trial {
     /// Value on each axis, in the units of the axes.
     pub values: Vec<f64>,
     /// Seed.
     pub seed: u64,
 }
 
-impl Run {
+impl Trial {
     /// The order of runs: by place and then by seed.
     pub fn order(&self, other: &Self) -> Ordering {
         let mut pairs = self.values.iter().zip(&other.values);
@@ -32,7 +32,7 @@ impl Run {
 /// finish.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Observations {
-    runs: Vec<(Run, Code)>,
+    runs: Vec<(Trial, Code)>,
 }
 
 impl Observations {
@@ -45,7 +45,7 @@ impl Observations {
     ///
     /// # Errors
     /// If the run is known with another label.
-    pub fn add(&mut self, run: Run, label: Code) -> Result<(), RefineError> {
+    pub fn add(&mut self, run: Trial, label: Code) -> Result<(), RefineError> {
         match self.runs.binary_search_by(|(other, _)| other.order(&run)) {
             Ok(index) if self.runs[index].1 == label => Ok(()),
             Ok(index) => Err(RefineError::Contradiction {
@@ -62,7 +62,7 @@ impl Observations {
     }
 
     /// The label of a run, if it is known.
-    pub fn label(&self, run: &Run) -> Option<Code> {
+    pub fn label(&self, run: &Trial) -> Option<Code> {
         let place = self.runs.binary_search_by(|(other, _)| other.order(run));
         place.ok().map(|place| self.runs[place].1)
     }
@@ -78,7 +78,7 @@ impl Observations {
     }
 
     /// Runs and labels, by place and seed.
-    pub fn iter(&self) -> impl Iterator<Item = (&Run, Code)> {
+    pub fn iter(&self) -> impl Iterator<Item = (&Trial, Code)> {
         self.runs.iter().map(|(run, label)| (run, *label))
     }
 }

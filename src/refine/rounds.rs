@@ -1,8 +1,8 @@
 //! Rounds of runs.
 
-use super::choice::Candidates;
+use super::choice::CandidatePlaces;
 use super::observations::Training;
-use super::{Code, Lattice, Observations, ProbabilityMap, RefineError, Run, Settings, widths};
+use super::{Code, Lattice, Observations, ProbabilityMap, RefineError, Settings, Trial, widths};
 use serde::{Deserialize, Serialize};
 
 /// Why no more runs are made.
@@ -33,7 +33,7 @@ pub fn probabilities(
 
 /// The runs of the coarse grid, in the order of the lattice: values of each axis at equal steps of
 /// its list, including the first and the last; the middle value if only one is requested.
-pub(crate) fn start(lattice: &Lattice, settings: &Settings) -> Vec<Run> {
+pub(crate) fn start(lattice: &Lattice, settings: &Settings) -> Vec<Trial> {
     let axes = lattice.axes().iter().enumerate();
     let chosen: Vec<Vec<usize>> = axes
         .map(|(axis, it)| {
@@ -53,7 +53,7 @@ pub(crate) fn start(lattice: &Lattice, settings: &Settings) -> Vec<Run> {
         indices.all(|(index, chosen)| chosen.contains(&index))
     };
     let places = (0..lattice.places()).filter(is_chosen);
-    let runs = places.map(|place| Run {
+    let runs = places.map(|place| Trial {
         values: lattice.values(place),
         seed: settings.first_seed,
     });
@@ -64,7 +64,7 @@ pub(crate) fn start(lattice: &Lattice, settings: &Settings) -> Vec<Run> {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Round {
     /// All of these runs must be made and learnt before the next round is requested.
-    Runs(Vec<Run>),
+    Runs(Vec<Trial>),
     /// No more runs are made.
     Finished(Finish),
 }
@@ -103,7 +103,7 @@ impl Rounds {
     ///
     /// # Errors
     /// If the run is known with another label.
-    pub fn learn(&mut self, run: Run, label: Code) -> Result<(), RefineError> {
+    pub fn learn(&mut self, run: Trial, label: Code) -> Result<(), RefineError> {
         self.map = None;
         self.runs.add(run, label)
     }
@@ -156,7 +156,7 @@ impl Rounds {
     }
 
     /// Runs of the coarse grid that have no label, as many as the budget allows.
-    fn missing(&self) -> Vec<Run> {
+    fn missing(&self) -> Vec<Trial> {
         let mut missing = start(&self.lattice, &self.settings);
         missing.retain(|run| self.runs.label(run).is_none());
         missing.truncate(self.settings.budget.saturating_sub(self.runs.len()));
@@ -164,7 +164,7 @@ impl Rounds {
     }
 
     /// Runs where the label is least certain, with some far from all runs among them.
-    fn uncertain(&self, map: &ProbabilityMap) -> Vec<Run> {
+    fn uncertain(&self, map: &ProbabilityMap) -> Vec<Trial> {
         let Self {
             lattice,
             settings,
@@ -172,7 +172,7 @@ impl Rounds {
             ..
         } = self;
         let mut round = Vec::new();
-        let mut candidates = Candidates::new(lattice, runs, map, settings);
+        let mut candidates = CandidatePlaces::new(lattice, runs, map, settings);
         let after_start = runs.len().saturating_sub(start(lattice, settings).len());
         let left = settings.budget.saturating_sub(runs.len());
         for number in after_start..after_start + settings.round.min(left) {

@@ -1,7 +1,7 @@
 //! How a sweep is refined.
 
 use super::RefineError;
-use super::model::{Model, Propagation, Regression};
+use super::model::{LabelModel, Propagation, Regression};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -63,7 +63,7 @@ impl ModelKind {
     }
 
     /// The model.
-    pub fn model(self) -> &'static dyn Model {
+    pub fn model(self) -> &'static dyn LabelModel {
         match self {
             Self::Regression => &Regression,
             Self::Propagation => &Propagation,

@@ -1,7 +1,7 @@
 //! The numeric keys of a scene by their paths, so that a sweep can vary any of them.
 
 use super::{LIST_KEY, SCENE, Scene};
-use crate::document::kind::{Key, Kind, Range, Table};
+use crate::document::kind::{KeyTable, NumberRange, TableKey, ValueKind};
 use crate::document::{Problem, any_of, one_of, suggest};
 use serde_json::Value;
 use std::borrow::Cow;
@@ -10,7 +10,7 @@ use std::borrow::Cow;
 const SAFETY_FACTOR_KEY: &str = "time.safety_factor";
 
 /// Constraint on entries of a vector.
-static COMPONENT: Kind = Kind::Number(Range::ANY);
+static COMPONENT: ValueKind = ValueKind::Number(NumberRange::ANY);
 
 /// Whether the key at `path` of a scene may hold a number, for any values of the other keys.
 pub(crate) fn may_hold(path: &str, number: f64) -> bool {
@@ -27,7 +27,7 @@ pub(crate) fn may_hold(path: &str, number: f64) -> bool {
 pub(super) struct NumericKey {
     pub(super) path: String,
     /// What it may hold.
-    pub(super) kind: &'static Kind,
+    pub(super) kind: &'static ValueKind,
     /// How figures write it, in this scene.
     notation: Option<Notation>,
 }
@@ -121,7 +121,7 @@ impl Scene {
                 .help("use `dt = \"auto\"` in [time] of the scene, or vary `time.dt`");
         }
         let table = key.split('.').next().unwrap_or(key);
-        if let Kind::Table(scene) = &SCENE.kind
+        if let ValueKind::Table(scene) = &SCENE.kind
             && table != key
             && scene.keys.iter().any(|known| known.name == table)
             && self.for_keys(&[]).tree().get(table).is_none()
@@ -162,13 +162,13 @@ fn is_without_effect(key: &str) -> bool {
 }
 
 fn collect(
-    kind: &'static Kind,
+    kind: &'static ValueKind,
     notation: Option<Notation>,
     value: Option<&Value>,
     path: &str,
     keys: &mut Vec<NumericKey>,
 ) {
-    let mut push = |path: String, kind: &'static Kind, notation: Option<Notation>| {
+    let mut push = |path: String, kind: &'static ValueKind, notation: Option<Notation>| {
         keys.push(NumericKey {
             path,
             kind,
@@ -176,39 +176,48 @@ fn collect(
         });
     };
     match kind {
-        Kind::Number(_) | Kind::Whole(_) => push(path.to_owned(), kind, notation),
-        Kind::Either(kinds) => {
-            if kinds.iter().any(|kind| matches!(kind, Kind::Number(_))) {
+        ValueKind::Number(_) | ValueKind::Whole(_) => push(path.to_owned(), kind, notation),
+        ValueKind::Either(kinds) => {
+            if kinds
+                .iter()
+                .any(|kind| matches!(kind, ValueKind::Number(_)))
+            {
                 push(path.to_owned(), kind, notation);
             }
-            let lists = kinds.iter().filter(|kind| matches!(kind, Kind::List(_)));
+            let lists = kinds
+                .iter()
+                .filter(|kind| matches!(kind, ValueKind::List(_)));
             for kind in lists.filter(|kind| value.is_some_and(|value| kind.fits_type_of(value))) {
                 collect(kind, None, value, path, keys);
             }
         }
-        Kind::Table(table) => collect_table(table, value, path, keys),
-        Kind::Tagged(tag, variants) => {
+        ValueKind::Table(table) => collect_table(table, value, path, keys),
+        ValueKind::Tagged(tag, variants) => {
             let word = value.and_then(|value| value.get(tag)?.as_str());
             if let Some(variant) = variants.iter().find(|it| Some(it.word.as_str()) == word) {
                 collect_table(&variant.table, value, path, keys);
             }
         }
-        Kind::List(entry) => {
+        ValueKind::List(entry) => {
             for (index, value) in entries(value) {
                 collect(entry, None, Some(value), &format!("{path}[{index}]"), keys);
             }
         }
-        Kind::Vector => {
+        ValueKind::Vector => {
             for (index, _) in entries(value) {
                 push(format!("{path}[{index}]"), &COMPONENT, None);
             }
         }
-        Kind::Text | Kind::Flag | Kind::Choice(_) | Kind::Any | Kind::AnyTable => {}
+        ValueKind::Text
+        | ValueKind::Flag
+        | ValueKind::Choice(_)
+        | ValueKind::Any
+        | ValueKind::AnyTable => {}
     }
 }
 
 fn collect_table(
-    table: &'static Table,
+    table: &'static KeyTable,
     value: Option<&Value>,
     path: &str,
     keys: &mut Vec<NumericKey>,
@@ -235,7 +244,7 @@ impl Notation {
     }
 
     /// The notation of a key in a table with these values.
-    fn of(key: &'static Key, table: &Value) -> Option<Self> {
+    fn of(key: &'static TableKey, table: &Value) -> Option<Self> {
         let quantity = key.quantity.as_ref()?;
         (!quantity.symbol.is_empty()).then(|| Self {
             symbol: &quantity.symbol,

@@ -2,7 +2,7 @@
 //! reads scenes is compiled only once.
 
 use super::{SCENE, Scene};
-use crate::document::kind::Kind;
+use crate::document::kind::ValueKind;
 use serde::de::{Deserialize, Deserializer, Error};
 use serde_json::Value;
 
@@ -25,7 +25,7 @@ impl Scene {
     /// Refuses unknown keys, for example from another version of the program: serde ignores them in
     /// tables that several structs share.
     fn from_tree(tree: Value) -> Result<Self, serde_json::Error> {
-        if let (Kind::Table(scene), Some(keys)) = (&SCENE.kind, tree.as_object()) {
+        if let (ValueKind::Table(scene), Some(keys)) = (&SCENE.kind, tree.as_object()) {
             let is_known = |name: &String| scene.keys.iter().any(|key| key.name == *name);
             if let Some(name) = keys.keys().find(|name| !is_known(name)) {
                 return Err(Error::custom(format!("unknown key `{name}`")));

@@ -3,7 +3,7 @@
 use super::keys::NumericKey;
 use super::{Scene, Start};
 use crate::document::Problem;
-use crate::document::kind::Kind;
+use crate::document::kind::ValueKind;
 use serde::Deserialize;
 use serde_json::Value;
 use std::borrow::Cow;
@@ -45,8 +45,9 @@ impl Template {
     pub(crate) fn with(&mut self, values: &[f64]) -> Result<Scene, Vec<Problem>> {
         let mut problems = Vec::new();
         for (key, &value) in self.keys.iter().zip(values) {
-            let is_count =
-                matches!(key.kind, Kind::Whole(_)) && value >= 0.0 && libm::trunc(value) == value;
+            let is_count = matches!(key.kind, ValueKind::Whole(_))
+                && value >= 0.0
+                && libm::trunc(value) == value;
             let number = match is_count {
                 true => Value::from(value as u64),
                 false => Value::from(value),

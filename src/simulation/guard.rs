@@ -1,7 +1,9 @@
 //! Numerical guards, and what they report.
 
+use serde::Serialize;
+
 /// What broke, when and where.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, Serialize, thiserror::Error)]
 #[error("{guard} guard at step {step} (t = {time:.6} s), sphere {sphere}: {detail}")]
 pub struct Instability {
     /// Which guard.
@@ -18,7 +20,8 @@ pub struct Instability {
 }
 
 /// A numerical guard.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Guard {
     /// A position or velocity is not a number, or a spin is infinite.
     NotANumber,

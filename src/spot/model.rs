@@ -119,7 +119,7 @@ impl SpotRules {
         collect(simd, position, ranges, (centre, radius), moved);
     }
 
-    /// Displacement of a sphere over that of the spot, which moves `count` spheres at a height (m).
+    /// Displacement of a sphere over the spot's, which moves `count` spheres at a height (m).
     fn displacement_per_step(&self, height: f64, count: usize) -> f64 {
         match self.parameters.influence {
             Influence::Weighted {

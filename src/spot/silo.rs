@@ -46,7 +46,7 @@ impl Silo {
     }
 
     /// The nearest place to a centre where the sphere overlaps neither the floor nor the orifice's
-    /// edge. None if the sphere has left: its centre is below the floor inside the orifice.
+    /// edge. `None` if the sphere has left: its centre is below the floor inside the orifice.
     pub(crate) fn above_floor(&self, centre: Vector) -> Option<Vector> {
         if centre.z >= self.radius {
             return Some(centre);

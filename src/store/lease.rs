@@ -1,18 +1,11 @@
 //! The right of one process to make a run that others may want to make too.
 
-use super::lock::{Lock, hold};
+use super::lock::{Lock, hold, is_locked, look};
 use serde::{Deserialize, Serialize};
-use std::fs::{File, OpenOptions, TryLockError};
+use std::fs::{File, OpenOptions};
 use std::io::{self, ErrorKind, Write};
 use std::path::Path;
-use std::thread;
-use std::time::{Duration, SystemTime, UNIX_EPOCH};
-
-/// How often a lock is tried.
-const LOOKS: usize = 5;
-
-/// Time between two tries.
-const BETWEEN_LOOKS: Duration = Duration::from_millis(4);
+use std::time::{SystemTime, UNIX_EPOCH};
 
 /// Who has a lease: what the file says to people.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -49,15 +42,10 @@ impl Lease {
             }
             Err(error) => return Err(error),
         };
-        // Who only looks whether it is taken holds the lock for an instant.
-        for _ in 0..LOOKS {
-            match file.try_lock() {
-                Ok(()) => return Self::of_file(file, &path),
-                Err(TryLockError::WouldBlock) => thread::sleep(BETWEEN_LOOKS),
-                Err(TryLockError::Error(source)) => return Err(source),
-            }
+        match look(|| Ok(is_locked(file.try_lock())?.then_some(())))? {
+            Some(()) => Self::of_file(file, &path),
+            None => Ok(None),
         }
-        Ok(None)
     }
 
     /// The lease of a file that has been locked.
@@ -99,6 +87,7 @@ impl Lock {
 mod tests {
     use super::*;
     use std::sync::Barrier;
+    use std::thread;
 
     #[test]
     fn one_at_a_time_has_a_lease() {

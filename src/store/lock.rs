@@ -3,7 +3,40 @@
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
+use std::thread;
 use std::time::Duration;
+
+/// Tries up to `tries` times, with a pause in between, until `attempt` gives something.
+pub(crate) fn retry<T, E>(
+    tries: usize,
+    pause: Duration,
+    mut attempt: impl FnMut() -> Result<Option<T>, E>,
+) -> Result<Option<T>, E> {
+    for number in 0..tries {
+        if number > 0 {
+            thread::sleep(pause);
+        }
+        if let Some(found) = attempt()? {
+            return Ok(Some(found));
+        }
+    }
+    Ok(None)
+}
+
+/// Tries for a lock a few times: a process that only looks whether a file [is
+/// locked](Lock::is_taken) holds the lock for an instant.
+pub(super) fn look<T>(attempt: impl FnMut() -> io::Result<Option<T>>) -> io::Result<Option<T>> {
+    retry(5, Duration::from_millis(4), attempt)
+}
+
+/// Whether a try for a lock has it, and no other process is in the way.
+pub(super) fn is_locked(tried: Result<(), TryLockError>) -> io::Result<bool> {
+    match tried {
+        Ok(()) => Ok(true),
+        Err(TryLockError::WouldBlock) => Ok(false),
+        Err(TryLockError::Error(source)) => Err(source),
+    }
+}
 
 /// The right to write to a place: a locked file. Unlocked when dropped, or however the process
 /// ends.
@@ -104,24 +137,18 @@ fn lock(path: &Path) -> io::Result<Option<File>> {
 /// Makes a file and locks it in one of two ways. None if another process is in the way.
 fn locked(
     path: &Path,
-    try_lock: impl Fn(&File) -> Result<(), TryLockError>,
+    lock: impl Fn(&File) -> Result<(), TryLockError>,
 ) -> io::Result<Option<File>> {
-    // `is_taken` of another process holds the lock for an instant, so one look is not enough.
-    for _ in 0..10 {
+    look(|| {
         let file = OpenOptions::new()
             .write(true)
             .create(true)
             .truncate(false)
             .open(path)?;
-        match try_lock(&file) {
-            // Else its owner removed it since it was opened: another file has its name.
-            Ok(()) if has_name(&file)? => return Ok(Some(file)),
-            Ok(()) => {}
-            Err(TryLockError::WouldBlock) => std::thread::sleep(Duration::from_millis(20)),
-            Err(TryLockError::Error(source)) => return Err(source),
-        }
-    }
-    Ok(None)
+        // One without a name was removed by its owner since it was opened.
+        let is_ours = is_locked(lock(&file))? && has_name(&file)?;
+        Ok(is_ours.then_some(file))
+    })
 }
 
 /// Whether a file can still be found under a name.
@@ -152,6 +179,22 @@ mod tests {
         assert!(!path.exists());
         let second = Lock::take_beside(&record).unwrap();
         assert!(second.is_some() && path.exists());
+    }
+
+    /// While a file is locked alone, as by a long `phase classify`, nobody shares it.
+    #[test]
+    fn a_file_is_locked_alone_or_shared() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("lock");
+        let alone = Lock::take(&path).unwrap().unwrap();
+        assert!(Lock::share(&path).unwrap().is_none());
+        let shared = alone.into_shared(&path).unwrap().unwrap();
+        let other = Lock::share(&path).unwrap().unwrap();
+        assert!(Lock::take(&path).unwrap().is_none());
+        drop(shared);
+        assert!(Lock::take(&path).unwrap().is_none());
+        drop(other);
+        assert!(Lock::take(&path).unwrap().is_some());
     }
 
     /// A process that opened the file before its owner removed it would hold a lock that no other

@@ -34,6 +34,7 @@ pub use import::read_states;
 pub use labels::{read_labels, write_labels, write_points};
 pub use lease::{Holder, Lease};
 pub use lock::Lock;
+pub(crate) use lock::retry;
 pub use own::is_own_file;
 pub use record::{
     HDF5_SIGNATURE, RecordHeader, content_digest, motion_digest, read_record, read_record_header,
@@ -42,6 +43,7 @@ pub use record::{
 pub use refined::{BorderRow, write_borders, write_probabilities};
 pub use rows::write_rows;
 
+use crate::refusal::Refusal;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -184,6 +186,16 @@ pub enum StoreError {
         /// The file.
         path: PathBuf,
     },
+}
+
+/// What cannot be read was asked for; what cannot be written is no fault of who asked.
+impl Refusal for StoreError {
+    fn is_refusal(&self) -> bool {
+        !matches!(
+            self,
+            Self::Write { .. } | Self::DiskFull { .. } | Self::Content { .. }
+        )
+    }
 }
 
 impl StoreError {

@@ -3,8 +3,9 @@
 use super::{Refining, Sweep};
 use crate::classify::LabelRow;
 use crate::record::RunRecord;
+use crate::refusal::Refusal;
 use crate::resume::Checkpoints;
-use crate::store::{self, Lease, Lock, StoreError};
+use crate::store::{self, StoreError};
 use serde::Serialize;
 use std::collections::HashMap;
 use std::fs;
@@ -19,18 +20,6 @@ pub struct Folder {
     /// Whether runs that have a label count as done without their records.
     keeps_labels: bool,
 }
-
-/// The right to run a sweep into a folder.
-#[derive(Debug)]
-pub enum Access {
-    /// No other process writes to it.
-    Alone(Lock),
-    /// Other processes run the same sweep.
-    Shared(Lock),
-}
-
-/// How often the right to run a sweep is tried, a fifth of a second each.
-const ENTRANCES: usize = 25;
 
 /// What can be wrong with a results folder.
 #[derive(Debug, thiserror::Error)]
@@ -100,6 +89,17 @@ pub enum FolderError {
     /// A file of the folder cannot be read or written.
     #[error(transparent)]
     Store(#[from] store::StoreError),
+}
+
+/// A path that leads to no results, or a folder in use. What a results folder holds is no fault of
+/// who names it.
+impl Refusal for FolderError {
+    fn is_refusal(&self) -> bool {
+        matches!(
+            self,
+            Self::Missing(_) | Self::NotAFolder(_) | Self::NoSweep(_) | Self::Locked(_)
+        )
+    }
 }
 
 impl Folder {
@@ -210,11 +210,6 @@ impl Folder {
         self.records().join(format!("{id}.h5"))
     }
 
-    /// Whether a process is making the run with that identity.
-    pub fn is_made_elsewhere(&self, id: &str) -> bool {
-        Lease::is_taken(&self.record(id))
-    }
-
     /// The checkpoints of the run with that identity, beside its record.
     pub fn checkpoints(&self, id: &str, interval: Duration) -> Checkpoints {
         Checkpoints::beside(&self.record(id), interval)
@@ -266,123 +261,6 @@ impl Folder {
     pub fn create(&self) -> Result<(), FolderError> {
         let path = self.records();
         fs::create_dir_all(&path).map_err(|source| FolderError::Io { path, source })
-    }
-
-    /// Removes the temporary files and leases that killed processes left behind. Only a process
-    /// that has the folder alone may call this.
-    ///
-    /// # Errors
-    /// If the folder cannot be read or a file not be removed.
-    pub fn remove_leftovers(&self) -> Result<(), FolderError> {
-        store::remove_leftovers(&self.root)?;
-        store::remove_leftovers(&self.records())?;
-        for entry in fs::read_dir(self.records()).into_iter().flatten().flatten() {
-            let path = entry.path();
-            if path.extension().is_some_and(|it| it == "lease") {
-                // One that cannot be removed is taken over.
-                let _ = fs::remove_file(path);
-            }
-        }
-        Ok(())
-    }
-
-    /// Removes the table of failed jobs, if there is one.
-    ///
-    /// # Errors
-    /// If the system does not allow it.
-    pub fn forget_failures(&self) -> Result<(), FolderError> {
-        let path = self.failures();
-        match fs::remove_file(&path) {
-            Err(source) if source.kind() != io::ErrorKind::NotFound => {
-                Err(FolderError::Io { path, source })
-            }
-            _ => Ok(()),
-        }
-    }
-
-    /// Takes the right to change the folder, which must exist, while no other process writes to it.
-    ///
-    /// # Errors
-    /// [`FolderError::Locked`] if another process writes to it.
-    pub fn lock(&self) -> Result<Lock, FolderError> {
-        let lock = Lock::take(&self.lock_file()).map_err(self.io_error())?;
-        lock.ok_or_else(|| FolderError::Locked(self.root.clone()))
-    }
-
-    /// Takes the right to run a sweep into the folder, which must exist: alone if no other process
-    /// writes to it, or else beside those that run the same sweep.
-    ///
-    /// # Errors
-    /// [`FolderError::Locked`] if another process changes the folder, or runs another sweep into
-    /// it.
-    pub fn enter(&self, sweep: &Sweep) -> Result<Access, FolderError> {
-        let path = self.lock_file();
-        // Another process may be about to let others in.
-        for _ in 0..ENTRANCES {
-            if let Some(lock) = Lock::take(&path).map_err(self.io_error())? {
-                return Ok(Access::Alone(lock));
-            }
-            if let Some(lock) = Lock::share(&path).map_err(self.io_error())? {
-                return match self.read_sweep() {
-                    Ok(stored) if stored == *sweep => Ok(Access::Shared(lock)),
-                    _ => Err(FolderError::Locked(self.root.clone())),
-                };
-            }
-        }
-        Err(FolderError::Locked(self.root.clone()))
-    }
-
-    /// Lets other processes run the same sweep into the folder. What killed processes left behind
-    /// is removed before, if no other process is there.
-    ///
-    /// # Errors
-    /// If the sweep cannot be written, or the right is lost.
-    pub fn open(&self, access: Access, sweep: &Sweep) -> Result<Lock, FolderError> {
-        let alone = match access {
-            Access::Shared(lock) => return Ok(lock),
-            Access::Alone(lock) => lock,
-        };
-        self.remove_leftovers()?;
-        self.write_sweep(sweep)?;
-        let shared = alone
-            .into_shared(&self.lock_file())
-            .map_err(self.io_error())?;
-        shared.ok_or_else(|| FolderError::Locked(self.root.clone()))
-    }
-
-    /// The sweep file that was last run into the folder on this machine, if it is known and there.
-    pub fn source(&self) -> Option<PathBuf> {
-        let text = fs::read_to_string(self.lock_file()).ok()?;
-        let path = PathBuf::from(text.trim_end());
-        path.is_file().then_some(path)
-    }
-
-    /// Notes which sweep file is run into the folder. Only a process that has the folder alone may
-    /// call this. Of a path that no text can name nothing is noted.
-    ///
-    /// # Errors
-    /// If the note cannot be written.
-    pub fn note_source(&self, file: &Path) -> Result<(), FolderError> {
-        let path = file.canonicalize().ok();
-        let text = path.as_deref().and_then(Path::to_str).unwrap_or_default();
-        fs::write(self.lock_file(), text).map_err(self.io_error())
-    }
-
-    /// Whether another process writes to the folder.
-    pub fn is_locked(&self) -> bool {
-        Lock::is_taken(&self.lock_file())
-    }
-
-    fn lock_file(&self) -> PathBuf {
-        self.root.join(".lock")
-    }
-
-    fn io_error(&self) -> impl Fn(io::Error) -> FolderError + use<> {
-        let path = self.lock_file();
-        move |source| FolderError::Io {
-            path: path.clone(),
-            source,
-        }
     }
 
     /// Reads the resolved sweep.

@@ -3,6 +3,7 @@
 use super::{Folder, Job, PlotSettings, Sweep, work};
 use crate::classify::{self, ClassifyError, Family, Label, LabelRow, LabelTable, Sieves};
 use crate::document::differing_keys;
+use crate::refusal::Refusal;
 use crate::scene::Scene;
 use crate::store::{self, StoreError};
 use std::collections::{BTreeMap, HashMap, HashSet};
@@ -154,6 +155,12 @@ pub enum LabellingError {
     /// A table cannot be written.
     #[error(transparent)]
     Store(#[from] StoreError),
+}
+
+impl Refusal for LabellingError {
+    fn is_refusal(&self) -> bool {
+        matches!(self, Self::Lost { .. })
+    }
 }
 
 impl Labelling {

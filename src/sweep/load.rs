@@ -137,11 +137,12 @@ pub(crate) fn of_document(document: &Document) -> Result<Sweep, LoadError> {
 fn check_sieves(sweep: &Sweep, tree: &Value, problems: &mut Vec<Problem>) {
     let family = Family::of(&sweep.scene);
     let given = tree["sieves"].as_object().into_iter().flatten();
-    for (name, _) in given.filter(|(name, _)| !family.sieves.contains(&name.as_str())) {
+    let own: Vec<&str> = family.sieves.iter().map(|sieve| sieve.name).collect();
+    for (name, _) in given.filter(|(name, _)| !own.contains(&name.as_str())) {
         let message = format!("`sieves.{name}` is not a sieve of a {}", family.name);
-        let help = match family.sieves {
-            [] => "remove it; there are none".to_owned(),
-            own => format!("remove it; those are {}", one_of(own.iter().copied())),
+        let help = match own.is_empty() {
+            true => "remove it; there are none".to_owned(),
+            false => format!("remove it; those are {}", one_of(own.iter().copied())),
         };
         let problem = Problem::new(format!("sieves.{name}"), message);
         problems.push(problem.help(help).at_key());

@@ -1,5 +1,6 @@
 //! Sweeps: the jobs of a grid, who runs them, and their results folder.
 
+mod access;
 mod backend;
 mod dumps;
 mod failure;
@@ -10,19 +11,22 @@ mod labelling;
 mod load;
 mod plan;
 mod pool;
+mod records;
 mod refining;
 mod select;
 mod status;
 pub mod work;
 
 pub use crate::document::differing_keys;
+pub use access::Access;
 pub use backend::{
-    Backend, BackendError, Batch, Begin, Claim, Event, LocalThreads, Report, Results, Wishes,
+    Backend, BackendError, Batch, Begin, Claim, Event, Halt, LocalThreads, Permit, Report, Results,
+    Wishes,
 };
 pub use dumps::find_dumps;
 pub use failure::Failure;
-pub use failures::{read_failures, write_failures};
-pub use folder::{Access, Folder, FolderError};
+pub use failures::read_failures;
+pub use folder::{Folder, FolderError};
 pub use job::Job;
 pub use labelling::{
     Labelled, Labelling, LabellingError, Since, WithoutRoom, refuse_to_lose_labels,

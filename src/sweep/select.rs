@@ -54,6 +54,8 @@ pub enum SelectError {
     },
 }
 
+crate::refusal::always!(true: SelectError);
+
 /// Reads the values of a point, such as `radius=0.003,omega=6`, and its seed, if it has one.
 ///
 /// # Errors
@@ -113,7 +115,7 @@ impl Sweep {
         let mut chosen = self.clone();
         let mut named = Vec::new();
         for (name, value) in &point.values {
-            let is_named = |axis: &super::Axis| axis.name == *name || axis.key == *name;
+            let is_named = |axis: &Axis| axis.name == *name || axis.key == *name;
             let Some(place) = self.axes.iter().position(is_named) else {
                 return Err(no_axis(&self.axes, name));
             };

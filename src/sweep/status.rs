@@ -71,9 +71,8 @@ impl Status {
     pub fn of(folder: &Folder, axes: &[Axis], plan: &Plan) -> Result<Self, FolderError> {
         let left_ids: HashSet<_> = plan.pending().map(|job| &job.id).collect();
         let mut failures = read_failures(axes, &folder.failures())?;
-        let mut failed = HashSet::new();
-        failures
-            .retain(|failure| left_ids.contains(&failure.id) && failed.insert(failure.id.clone()));
+        failures.retain(|failure| left_ids.contains(&failure.id));
+        let failed: HashSet<_> = failures.iter().map(|failure| failure.id.clone()).collect();
         let is_bad = |standing: &Standing| {
             !matches!(
                 standing,

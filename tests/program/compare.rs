@@ -150,7 +150,7 @@ fn points_of_a_paper_are_shown_beside_a_record() {
     place
         .phase(&["plot", ".", "--figure", "phase", "--data", "paper.csv"])
         .code(2)
-        .complains("beside records");
+        .complains("data can be added to figures of records");
 }
 
 /// Symptom: steps of a dump beside a record of spots were taken as frames of that, and the outflow
@@ -496,7 +496,7 @@ fn folders_of_sweeps_are_compared() {
     let same = compare("theoretical-9x9", "theoretical-9x9").code(0);
     assert!(
         same.stdout
-            .contains("243 of 243 runs of one point and seed"),
+            .contains("243 of 243 runs with the same point and seed"),
         "{}",
         same.stdout
     );
@@ -504,7 +504,7 @@ fn folders_of_sweeps_are_compared() {
     assert!(
         other
             .stdout
-            .contains("runs of one point and seed have one label: ")
+            .contains("runs with the same point and seed have equal labels: ")
     );
     assert!(other.stdout.contains("rotation"), "{}", other.stdout);
     let refused = compare("theoretical-9x9", "silo").code(2);
@@ -515,5 +515,9 @@ fn folders_of_sweeps_are_compared() {
     );
     let one = folder("silo");
     let one = place.phase(&["compare", one.to_str().unwrap()]).code(2);
-    assert!(one.stderr.contains("two by two"), "{}", one.stderr);
+    assert!(
+        one.stderr.contains("exactly two results folders"),
+        "{}",
+        one.stderr
+    );
 }

@@ -220,7 +220,7 @@ fn a_few_jobs_stand_for_a_sweep() {
 
     let text = place.phase(&["cost", "tiny.toml"]).code(0);
     text.says("omega = 4, seed 1")
-        .says("stands for 2 jobs")
+        .says("represents 2 jobs")
         .says("total");
 }
 

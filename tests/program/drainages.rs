@@ -130,7 +130,7 @@ fn options_that_nothing_reads_are_refused() {
         (
             &["plot", folder, "--out", "."],
             times,
-            "name one of them with --figure",
+            "name one with --figure",
         ),
         (
             &["plot", "run.h5", "--figure", "outflow"],
@@ -145,18 +145,18 @@ fn options_that_nothing_reads_are_refused() {
         (
             &["plot", folder, "--out", "."],
             of_scene,
-            "a folder has that of its sweep",
+            "a results folder has its own scene",
         ),
         (&["compare", "run.h5"], of_scene, "there is none"),
         (
             &["compare", folder, folder],
             of_scene,
-            "of folders the labels are compared",
+            "folders are compared by their labels",
         ),
         (
             &["compare", folder, folder],
             times,
-            "of folders the labels are compared",
+            "folders are compared by their labels",
         ),
     ] {
         place.phase(command).code(0);

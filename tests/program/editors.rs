@@ -6,25 +6,9 @@ use serde_json::Value;
 use std::path::{Path, PathBuf};
 
 /// The commands that answer in JSON are tested below; these are all.
-const COMMANDS: [&str; 18] = [
-    "sweep",
-    "classify",
-    "plot",
-    "run",
-    "export",
-    "view",
-    "check",
-    "cost",
-    "compare",
-    "fit",
-    "study",
-    "verify",
-    "status",
-    "new",
-    "schema",
-    "reference",
-    "completions",
-    "man",
+const COMMANDS: [&str; 15] = [
+    "sweep", "classify", "plot", "run", "export", "view", "check", "cost", "compare", "fit",
+    "study", "verify", "status", "new", "generate",
 ];
 
 #[test]
@@ -38,6 +22,7 @@ fn documents_are_what_the_program_prints() {
         (["reference", "keys"], "docs/reference.md"),
         (["reference", "notation"], "docs/notation.md"),
     ] {
+        let arguments = [&["generate"], &arguments[..]].concat();
         let printed = place.phase(&arguments).code(0).stdout;
         if std::env::var_os("BLESS").is_some() {
             std::fs::write(path, &printed).unwrap();
@@ -53,7 +38,9 @@ fn documents_are_what_the_program_prints() {
 
 #[test]
 fn the_reference_tells_type_unit_default_and_description() {
-    let page = Workplace::new().phase(&["reference", "keys"]).code(0);
+    let page = Workplace::new()
+        .phase(&["generate", "reference", "keys"])
+        .code(0);
     page.says(
         "| `density` | a number of at least 1e-9 and at most 1e15 | kg/m³, kg/m² | *needed* | \
          Density rho",
@@ -135,7 +122,7 @@ fn a_new_sweep_says_what_its_scene_lacks() {
         place
             .phase(&["new", "sweep", "mine", "--force", "--scene", scene])
             .code(0)
-            .complains("does not go with its scene yet")
+            .complains("does not fit its scene yet")
             .complains(lack);
     }
 }
@@ -156,7 +143,7 @@ fn a_new_sweep_names_its_scene_from_its_own_folder() {
         let new = place
             .phase(&["new", "sweep", sweep, "--scene", &file])
             .code(0);
-        assert!(!new.stderr.contains("does not go with"), "{new:#?}");
+        assert!(!new.stderr.contains("does not fit"), "{new:#?}");
         let text = place.read(&format!("{sweep}.toml"));
         assert!(text.contains(&format!("scene = \"{path}\"")), "{text}");
         let check = ["check", &format!("{sweep}.toml"), "--no-trial"];
@@ -202,7 +189,7 @@ fn new_replaces_nothing_unless_it_is_told_to() {
     place
         .phase(&["new", "scene", "mine"])
         .code(2)
-        .complains("mine.toml: the file is there already")
+        .complains("mine.toml: the file exists already")
         .complains("--force");
     assert_eq!(place.read("mine.toml"), "# mine\n");
     place.phase(&["new", "scene", "mine", "--force"]).code(0);
@@ -219,23 +206,29 @@ fn new_replaces_nothing_unless_it_is_told_to() {
 fn completions_know_every_command() {
     let place = Workplace::new();
     for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
-        let script = place.phase(&["completions", shell]).code(0).stdout;
+        let script = place
+            .phase(&["generate", "completions", shell])
+            .code(0)
+            .stdout;
         for command in COMMANDS {
             assert!(script.contains(command), "{shell} does not know {command}");
         }
         assert!(script.contains("no-trial"), "{shell}");
     }
-    place.phase(&["completions", "nonsense"]).code(2);
+    place
+        .phase(&["generate", "completions", "nonsense"])
+        .code(2);
 }
 
 #[test]
 fn every_command_has_a_manual_page() {
     let place = Workplace::new();
-    let page = place.phase(&["man"]).code(0).says(".TH phase 1");
+    let answer = place.phase(&["generate", "man", "share/man1"]).code(0);
+    let page = place.read("share/man1/phase.1");
+    assert!(page.contains(".TH phase 1"), "{page}");
     for command in COMMANDS {
-        assert!(page.stdout.contains(&format!("phase\\-{command}(1)")));
+        assert!(page.contains(&format!("phase\\-{command}(1)")));
     }
-    let answer = place.phase(&["man", "--out", "share/man1"]).code(0);
     assert_eq!(answer.stdout.lines().count(), COMMANDS.len() + 1);
     for command in COMMANDS {
         let page = place.read(&format!("share/man1/phase-{command}.1"));
@@ -454,6 +447,23 @@ fn a_refined_sweep_answers_in_json() {
     let folder = &status["folders"][0]["refined"];
     assert_eq!(folder["end"], "budget");
     assert_eq!(folder["borders"], refined["borders"]);
+}
+
+/// Symptom: `--json` before the command was refused, and `phase new --json` was not.
+#[test]
+fn commands_without_a_result_for_programs_refuse_json() {
+    let place = Workplace::new();
+    let list = place.phase(&["--json", "plot", "--list"]).code(0);
+    assert!(list.stdout.starts_with('{'), "{}", list.stdout);
+    for arguments in [
+        &["new", "scene", "tank", "--json"][..],
+        &["generate", "schema", "scene", "--json"],
+    ] {
+        let answer = place.phase(arguments).code(2);
+        assert_eq!(answer.stdout, "");
+        answer.complains("no result for programs; leave out --json");
+    }
+    assert!(!place.path("tank.toml").exists());
 }
 
 #[test]

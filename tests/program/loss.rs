@@ -69,7 +69,7 @@ fn a_label_that_is_lost_is_counted() {
     place
         .phase(&["classify", "results/tiny"])
         .code(1)
-        .says("0 of 5 labels changed, 1 lost, as their records cannot be labelled");
+        .says("0 of 5 labels changed, 1 lost (their records cannot be labelled)");
 }
 
 /// Symptom: `phase run scene.toml --out scene.toml` replaced the scene with its record.

@@ -11,11 +11,10 @@ use phase::simulation::{
     Simulation, StateError,
 };
 use phase::store::{content_digest, read_record};
-use phase::sweep::{Folder, LocalThreads, Plan, Pool, Wishes};
+use phase::sweep::{Folder, LocalThreads, Plan, Pool};
 use std::io::Write;
 use std::ops::ControlFlow;
 use std::path::Path;
-use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
 const SCENE: &str = r#"
@@ -281,18 +280,8 @@ fn a_pool_runs_it_with_the_bits_of_single_runs() {
     let sweep = phase::sweep::from_str(text, &place.path().join("sweep.toml")).unwrap();
     let folder = Folder::new(place.path());
     folder.create().unwrap();
-    let pool = Pool {
-        folder: &folder,
-        sweep: &sweep,
-        backend: &LocalThreads::new(2).beginning(&|job| begin(&job.scene)),
-        workers: 2,
-        checkpoint_interval: Duration::from_secs(1000),
-        wishes: Wishes {
-            stop: &AtomicBool::new(false),
-            resume: true,
-            watch: &|_| {},
-        },
-    };
+    let threads = LocalThreads::new(2).beginning(&|job| begin(&job.scene));
+    let pool = Pool::new(&folder, &sweep, &threads);
     let plan = Plan::new(&folder, sweep.jobs().unwrap(), 2).unwrap();
     let report = pool.run(&plan).unwrap();
     assert_eq!((report.finished, report.work), (3, 3 * 600));

@@ -240,7 +240,10 @@ fn a_damaged_record_is_made_anew() {
     sweep(&place, &TinySweep::default())
         .code(0)
         .says("6 jobs: 1 run now")
-        .complains(&format!("record of job {}", name.trim_end_matches(".h5")));
+        .complains(&format!(
+            "running job {} again",
+            name.trim_end_matches(".h5")
+        ));
     assert_eq!(place.digests("results"), digests);
 }
 

@@ -54,8 +54,8 @@ fn module_of(file: &Path) -> Vec<String> {
     parts
 }
 
-/// The names that follow `crate::`, or so many `super::` that they lead there, in code.
-fn imports(text: &str, depth: usize) -> Vec<String> {
+/// The names that follow `root`, or so many `super::` that they lead there, in code.
+fn imports(text: &str, root: &str, depth: usize) -> Vec<String> {
     let code: Vec<&str> = text
         .lines()
         .map(|line| line.split("//").next().unwrap())
@@ -63,7 +63,7 @@ fn imports(text: &str, depth: usize) -> Vec<String> {
     let code = code.join("\n");
     let to_root = "super::".repeat(depth);
     let mut found = Vec::new();
-    for start in ["crate::", to_root.as_str()] {
+    for start in [root, to_root.as_str()] {
         for (at, _) in code.match_indices(start) {
             let before = code[..at].chars().next_back();
             if before.is_some_and(|it| it.is_alphanumeric() || it == '_' || it == ':') {
@@ -124,11 +124,46 @@ fn a_room_imports_only_rooms_above_it_in_the_table() {
             continue;
         };
         let text = fs::read_to_string(&file).unwrap();
-        for name in imports(&text, module.len()) {
+        for name in imports(&text, "crate::", module.len()) {
             if ranks.get(&name).is_some_and(|&other| other > rank) {
                 wrong.push(format!("{} imports `{name}`", file.display()));
             }
         }
+    }
+    wrong.sort();
+    wrong.dedup();
+    assert!(wrong.is_empty(), "\n{}", wrong.join("\n"));
+}
+
+/// What two commands need is a helper in `cli/`, or in the library.
+#[test]
+fn no_command_and_no_helper_imports_a_command() {
+    let mut wrong = Vec::new();
+    for file in files(Path::new("src/cli")) {
+        let module = module_of(&file);
+        let text = fs::read_to_string(&file).unwrap();
+        let found = match module.get(2) {
+            // A file of the command `own`; what it calls `commands` itself is not looked for.
+            Some(own) if module[1] == "commands" => {
+                let names = imports(&text, "crate::cli::commands::", module.len() - 2);
+                let is_command = |name: &String| {
+                    let path = Path::new("src/cli/commands").join(name);
+                    path.is_dir() || path.with_extension("rs").is_file()
+                };
+                let others = names.into_iter().filter(|name| name != own);
+                others.filter(is_command).collect()
+            }
+            _ if module.len() == 1 || module[1] == "commands" => Vec::new(),
+            _ => {
+                let names = imports(&text, "crate::cli::", module.len() - 1);
+                let commands = names.into_iter().filter(|name| name == "commands");
+                commands.collect::<Vec<_>>()
+            }
+        };
+        let wrong_here = found
+            .iter()
+            .map(|name| format!("{} imports `{name}`", file.display()));
+        wrong.extend(wrong_here);
     }
     wrong.sort();
     wrong.dedup();
@@ -145,7 +180,7 @@ fn imports_are_found_however_they_are_written() {
         use super::near::Near;
         fn f() -> crate::record::Outcome { my_crate::render() }
     ";
-    let mut found = imports(text, 2);
+    let mut found = imports(text, "crate::", 2);
     found.sort();
     assert_eq!(found, ["cost", "plot", "record", "run", "store", "sweep"]);
 }

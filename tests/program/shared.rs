@@ -2,6 +2,7 @@
 
 use crate::support::{Answer, TinySweep, Workplace, end, signal, wait_until};
 use std::fs;
+use std::time::Duration;
 
 /// Runs of a tenth of a second each.
 fn slow() -> TinySweep {
@@ -112,7 +113,7 @@ fn files_of_one_name_do_not_share_a_folder() {
     place
         .phase(&["sweep", "other/tiny.toml"])
         .code(2)
-        .complains("results/tiny: this folder has the results of ")
+        .complains("results/tiny: this folder holds the results of ")
         .complains(
             "one/tiny.toml, another sweep of the same name; choose another folder with --out",
         );
@@ -136,22 +137,58 @@ fn files_of_one_name_do_not_share_a_folder() {
         .says("6 jobs: 0 run now");
 }
 
-/// What a killed process had begun is made by another one, beside it or later.
+/// Symptom: what a killed process had begun was left to the next command. Now one that runs the same
+/// sweep waits for it, and takes it over.
+#[cfg(unix)]
 #[test]
-fn the_runs_of_a_killed_process_are_taken_over() {
+fn the_run_of_a_killed_process_is_taken_over_by_one_at_work() {
     let place = Workplace::new();
     place.write("tiny.toml", &slow().text());
     let mut killed = place.start(&SWEEP);
-    wait_until(|| leases_there(&place));
+    // Stopped in the middle of a run, it keeps its lease.
+    wait_until(|| {
+        if !leases_there(&place) {
+            return false;
+        }
+        signal(&killed, "STOP");
+        let is_at_work = leases(&place) == 1;
+        if !is_at_work {
+            signal(&killed, "CONT");
+        }
+        is_at_work
+    });
     let other = place.start(&SWEEP);
+    wait_until(|| place.records("shared").len() >= slow().jobs() - 1);
+    std::thread::sleep(Duration::from_millis(300));
     killed.kill().unwrap();
     killed.wait().unwrap();
     let answer = end(other);
     assert_eq!(answer.code, Some(0), "{}{}", answer.stdout, answer.stderr);
-    // The one that was begun may have been passed by.
-    place.phase(&SWEEP).code(0);
+    let waits = "waiting for 1 job that other processes are making";
+    assert!(answer.stderr.contains(waits), "{}", answer.stderr);
+    assert!(
+        answer.stdout.contains("10 runs labelled"),
+        "{}",
+        answer.stdout
+    );
     assert_eq!(place.records("shared").len(), slow().jobs());
     assert_eq!(leases(&place), 0);
+}
+
+/// A sweep waits for a process that has the folder alone for some seconds, such as a long
+/// `classify`.
+#[test]
+fn a_sweep_waits_for_a_process_that_changes_labels() {
+    let place = Workplace::new();
+    place.write("tiny.toml", &TinySweep::default().text());
+    place.phase(&["sweep", "tiny.toml"]).code(0);
+    let folder = phase::sweep::Folder::new(place.path("results/tiny"));
+    let classify = folder.lock().unwrap();
+    let mut sweep = place.start(&["sweep", "tiny.toml"]);
+    std::thread::sleep(Duration::from_secs(1));
+    assert!(sweep.try_wait().unwrap().is_none());
+    drop(classify);
+    end(sweep).code(0).says("6 done before");
 }
 
 /// One that is asked to end gives its leases back.

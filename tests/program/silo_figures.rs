@@ -8,6 +8,7 @@ use phase::beverloo::{Bed, Opening};
 use phase::classify::{FAMILIES, Label, LabelTable, SILO, Verdict};
 use phase::plot::{self, PlotError, fitted_lines};
 use phase::record::Program;
+use phase::refusal::Refusal;
 use phase::scene::Scene;
 use phase::sweep::Sweep;
 use serde_json::json;
@@ -172,7 +173,7 @@ fn what_cannot_be_fitted_says_why() {
     let mut without = sweep.clone();
     without.axes[0].key = "geometry.slope".to_owned();
     let error = drawn("beverloo", &without, &table).unwrap_err();
-    assert!(error.is_of_request() && error.to_string().contains("`geometry.opening`"));
+    assert!(error.is_refusal() && error.to_string().contains("`geometry.opening`"));
     let mut blocked = table.clone();
     for row in &mut blocked.rows {
         row.verdict = verdict(0.24, 0.5, row.seed);

@@ -271,7 +271,7 @@ fn records_are_drawn_beside_each_other() {
     place
         .phase(&["plot", "full.h5", ".", "--figure", "mixing"])
         .code(2)
-        .complains("only if all are records");
+        .complains("must all be records");
     place
         .phase(&["plot", "full.h5", "--figure", "mixing", "--times", "3,1"])
         .code(2)

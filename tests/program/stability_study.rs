@@ -416,7 +416,7 @@ fn rows_of_another_build_are_told_of_until_they_are_made_anew() {
             .phase(&again)
             .code(0)
             .complains("3 rows were made by version 0.0.9 (commit abc123); --force makes them anew")
-            .complains("1 row was made by a version that was not noted; --force makes it anew");
+            .complains("1 row was made by an unknown version; --force runs it again");
     }
     place.phase(&[&again[..], &["--force"]].concat()).code(0);
     quiet(place.phase(&again).code(0));

@@ -5,7 +5,7 @@
 //! that a new message is tested by being there.
 
 use crate::scene_files::{files, kind};
-use phase::document::{Finding, LoadError};
+use phase::document::{LoadError, LocatedProblem};
 use phase::scene::Scene;
 use phase::study::{accuracy, stability};
 use phase::sweep;
@@ -26,7 +26,7 @@ struct Suggestion {
     number: String,
 }
 
-fn problems(path: &Path, text: &str) -> Vec<Finding> {
+fn problems(path: &Path, text: &str) -> Vec<LocatedProblem> {
     let error = match kind(path) {
         "sweep" => sweep::from_str(text, path).err(),
         "stability" => stability::from_str(text, path).err(),
@@ -41,7 +41,7 @@ fn problems(path: &Path, text: &str) -> Vec<Finding> {
 }
 
 /// A message without its numbers: the problem whatever the values.
-fn problem_of(finding: &Finding) -> String {
+fn problem_of(finding: &LocatedProblem) -> String {
     let is_number = |word: &str| {
         let end = |character: char| ",;:.".contains(character);
         word.trim_end_matches(end).parse::<f64>().is_ok()
@@ -58,7 +58,7 @@ fn problem_of(finding: &Finding) -> String {
 }
 
 /// All numbers that a message says to type.
-fn suggestions(finding: &Finding) -> Vec<Suggestion> {
+fn suggestions(finding: &LocatedProblem) -> Vec<Suggestion> {
     let help = finding.help.as_deref().unwrap_or_default();
     let table = ["in [", "add ["].into_iter().find_map(|before| {
         let (_, rest) = help.split_once(before)?;
@@ -108,7 +108,7 @@ fn suggestions(finding: &Finding) -> Vec<Suggestion> {
 }
 
 /// The bytes of the text that the caret of a finding stands below, if they are a number.
-fn number_at_caret(text: &str, finding: &Finding) -> Option<std::ops::Range<usize>> {
+fn number_at_caret(text: &str, finding: &LocatedProblem) -> Option<std::ops::Range<usize>> {
     let spot = finding.spot.as_ref()?;
     let line = text.lines().nth(spot.line - 1)?;
     let start = line.as_ptr() as usize - text.as_ptr() as usize;
@@ -166,7 +166,7 @@ fn set(table: &mut Table, path: &str, number: &str) -> Option<()> {
 }
 
 /// The text with a suggestion typed where its message points to; none if it says no such place.
-fn typed(text: &str, finding: &Finding, suggestion: &Suggestion) -> Option<String> {
+fn typed(text: &str, finding: &LocatedProblem, suggestion: &Suggestion) -> Option<String> {
     let caret = number_at_caret(text, finding);
     if let (Some(range), None) = (&caret, &suggestion.key) {
         let mut text = text.to_owned();

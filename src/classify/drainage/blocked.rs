@@ -1,9 +1,11 @@
 //! The sieve for openings that are blocked: spheres are over the opening, and none leaves.
 
-use super::run::Run;
+use super::run::DrainageRun;
 use crate::classify::measure::{evidence, measures};
-use crate::classify::{ClassifyError, Label, window};
+use crate::classify::sieve::{Sieve, Sifted, if_yes};
+use crate::classify::{ClassifyError, Label, Measure, window};
 use crate::document::unit;
+use crate::scene::Scene;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -37,16 +39,30 @@ measures! {
     }
 }
 
-impl BlockedSieve {
-    pub(super) fn check(&self, interval: f64) -> Result<(), ClassifyError> {
-        window::check("blocked.window", self.window, interval)
+impl Sieve for BlockedSieve {
+    type Run<'a> = DrainageRun<'a>;
+
+    const LABELS: &'static [Label] = &[Label::BLOCKED];
+
+    const MEASURES: &'static [Measure] = BlockedEvidence::MEASURES;
+
+    fn check(&self, scene: &Scene) -> Result<(), ClassifyError> {
+        window::check("blocked.window", self.window, scene.time.frame_interval)
     }
 
-    pub(super) fn sift(&self, run: &Run<'_>) -> BlockedEvidence {
+    fn window(&self) -> Option<f64> {
+        Some(self.window)
+    }
+
+    fn sift(&self, run: &mut DrainageRun<'_>) -> Sifted {
         let count = run.left_in_last(self.window);
-        BlockedEvidence {
+        let evidence = BlockedEvidence {
             blocked_count: Some(count),
             blocked_margin: Some(0.5 - count),
+        };
+        Sifted {
+            label: if_yes(Label::BLOCKED, evidence.blocked_margin),
+            values: evidence.values(),
         }
     }
 }

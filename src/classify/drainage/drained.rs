@@ -1,9 +1,11 @@
 //! The sieve for boxes that are empty: (nearly) all spheres have left.
 
-use super::run::Run;
+use super::run::DrainageRun;
 use crate::classify::measure::{evidence, measures};
-use crate::classify::{ClassifyError, window};
+use crate::classify::sieve::{Sieve, Sifted, if_yes};
+use crate::classify::{ClassifyError, Label, Measure, window};
 use crate::document::unit;
+use crate::scene::Scene;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -31,14 +33,25 @@ measures! {
     }
 }
 
-impl DrainedSieve {
-    pub(super) fn check(&self) -> Result<(), ClassifyError> {
+impl Sieve for DrainedSieve {
+    type Run<'a> = DrainageRun<'a>;
+
+    const LABELS: &'static [Label] = &[Label::EMPTIED];
+
+    const MEASURES: &'static [Measure] = DrainedEvidence::MEASURES;
+
+    fn check(&self, _: &Scene) -> Result<(), ClassifyError> {
         window::check_share("drained.share", self.share)
     }
 
-    pub(super) fn sift(&self, run: &Run<'_>) -> DrainedEvidence {
-        DrainedEvidence {
+    fn sift(&self, run: &mut DrainageRun<'_>) -> Sifted {
+        let evidence = DrainedEvidence {
             drained_margin: Some(run.left() / run.spheres - self.share),
+        };
+        let is_empty = run.nothing_can_leave().then_some(Label::EMPTIED);
+        Sifted {
+            label: if_yes(Label::EMPTIED, evidence.drained_margin).or(is_empty),
+            values: evidence.values(),
         }
     }
 }

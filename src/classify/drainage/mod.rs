@@ -12,37 +12,25 @@ pub use blocked::BlockedSieve;
 pub use drained::DrainedSieve;
 pub use stagnant::StagnantSieve;
 
+pub(super) use run::DrainageRun;
+
 use super::lengths::check_lengths;
+use super::sieve::values;
+use super::sieves::DRAINAGE_SIEVES;
 use super::{ClassifyError, Family, Label, Sieves};
 use crate::record::RunRecord;
-use crate::scene::{Scene, Tank};
-use blocked::BlockedEvidence;
-use drained::DrainedEvidence;
+use crate::scene::Tank;
 use order::DrainageOrder;
-use run::Run;
-use stagnant::StagnantEvidence;
 
 /// Scenes of a box with an opening in its floor.
 pub static DRAINAGE: Family = Family {
     name: "drainage",
-    labels: &[
-        Label::UNSTABLE,
-        Label::EMPTIED,
-        Label::DRAINING,
-        Label::STAGNANT_CORNERS,
-        Label::BLOCKED,
-    ],
-    sieves: &["drained", "blocked", "stagnant"],
-    measures: &[
-        DrainedEvidence::MEASURES,
-        BlockedEvidence::MEASURES,
-        StagnantEvidence::MEASURES,
-        DrainageOrder::MEASURES,
-    ],
+    sieves: DRAINAGE_SIEVES,
+    without_sieve: &[Label::UNSTABLE, Label::DRAINING],
+    order: DrainageOrder::MEASURES,
     default_figures: &["phase", "outflow-rate"],
     takes: |scene| scene.tank.as_ref().and_then(Tank::opening).is_some(),
-    check,
-    windows: |sieves| vec![("blocked", sieves.blocked.window)],
+    check: |_, _| Ok(()),
     judge,
 };
 
@@ -51,35 +39,13 @@ impl Label {
     pub const DRAINING: Self = Self::new(10, "draining", 0x3f_92_d2);
 }
 
-fn check(sieves: &Sieves, scene: &Scene) -> Result<(), ClassifyError> {
-    sieves.drained.check()?;
-    sieves.blocked.check(scene.time.frame_interval)?;
-    sieves.stagnant.check()
-}
-
-/// The first of emptied, blocked, stagnant corners, draining that applies is the label.
+/// The first sieve that says yes decides.
 fn judge(record: &RunRecord, sieves: &Sieves) -> Result<(Label, Vec<Option<f64>>), ClassifyError> {
     check_lengths(record)?;
-    let run = Run::new(record);
-    let drained = sieves.drained.sift(&run);
-    let blocked = sieves.blocked.sift(&run);
-    let stagnant = sieves.stagnant.sift(&run);
-    let yes = |margin: Option<f64>| margin.is_some_and(|margin| margin >= 0.0);
-    let label = if yes(drained.drained_margin) || run.nothing_can_leave() {
-        Label::EMPTIED
-    } else if yes(blocked.blocked_margin) {
-        Label::BLOCKED
-    } else if yes(stagnant.stagnant_margin) {
-        Label::STAGNANT_CORNERS
-    } else {
-        Label::DRAINING
-    };
+    let mut run = DrainageRun::new(record);
+    let sifted = sieves.sift_drainage(&mut run);
+    let label = sifted.iter().find_map(|it| it.label);
+    let label = label.unwrap_or(Label::DRAINING);
     let order = DrainageOrder::measure(record, &run, label == Label::BLOCKED);
-    let values = [
-        drained.values(),
-        blocked.values(),
-        stagnant.values(),
-        order.values(),
-    ];
-    Ok((label, values.concat()))
+    Ok((label, values(sifted, order.values())))
 }

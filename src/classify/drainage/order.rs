@@ -1,6 +1,6 @@
 //! Continuous measures of a drainage.
 
-use super::run::Run;
+use super::run::DrainageRun;
 use crate::classify::measure::{measured, measures};
 use crate::compare::{Drainage, badness_of, mixing, packing_fraction};
 use crate::measure::{Centres, surface_angle};
@@ -32,7 +32,7 @@ measures! {
 }
 
 impl DrainageOrder {
-    pub(super) fn measure(record: &RunRecord, run: &Run<'_>, is_blocked: bool) -> Self {
+    pub(super) fn measure(record: &RunRecord, run: &DrainageRun<'_>, is_blocked: bool) -> Self {
         let drainage = Drainage::new(record, None).ok();
         let end = run.snapshots.last().map(Centres::of);
         Self {
@@ -51,7 +51,7 @@ impl DrainageOrder {
     }
 }
 
-fn outflow_rate(run: &Run<'_>) -> Option<f64> {
+fn outflow_rate(run: &DrainageRun<'_>) -> Option<f64> {
     let (time, left) = (&run.observations.time, &run.observations.discharged);
     let [first, last] = RATE_SHARES.map(|share| {
         let wanted = share * run.left();

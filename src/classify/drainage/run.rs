@@ -6,7 +6,7 @@ use crate::record::RunRecord;
 use crate::scene::Tank;
 
 /// A drainage, as its sieves see it.
-pub(super) struct Run<'a> {
+pub(in crate::classify) struct DrainageRun<'a> {
     pub(super) observations: &'a Observations,
     /// Number of spheres at the start.
     pub(super) spheres: f64,
@@ -24,7 +24,7 @@ pub(super) struct Run<'a> {
     pub(super) snapshots: &'a [Snapshot],
 }
 
-impl<'a> Run<'a> {
+impl<'a> DrainageRun<'a> {
     pub(super) fn new(record: &'a RunRecord) -> Self {
         let tank = record.scene.tank.clone().unwrap_or_default();
         Self {

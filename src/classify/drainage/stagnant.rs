@@ -1,9 +1,11 @@
 //! The sieve for stagnant corners: spheres at the side walls that have not sunk.
 
-use super::run::Run;
+use super::run::DrainageRun;
 use crate::classify::measure::{evidence, measures};
-use crate::classify::{ClassifyError, Label};
+use crate::classify::sieve::{Sieve, Sifted, if_yes};
+use crate::classify::{ClassifyError, Label, Measure};
 use crate::document::unit;
+use crate::scene::Scene;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -36,8 +38,14 @@ measures! {
     }
 }
 
-impl StagnantSieve {
-    pub(super) fn check(&self) -> Result<(), ClassifyError> {
+impl Sieve for StagnantSieve {
+    type Run<'a> = DrainageRun<'a>;
+
+    const LABELS: &'static [Label] = &[Label::STAGNANT_CORNERS];
+
+    const MEASURES: &'static [Measure] = StagnantEvidence::MEASURES;
+
+    fn check(&self, _: &Scene) -> Result<(), ClassifyError> {
         let valid = self.height.is_finite() && self.height > 0.0;
         valid.then_some(()).ok_or_else(|| ClassifyError::Threshold {
             key: "stagnant.height",
@@ -46,10 +54,14 @@ impl StagnantSieve {
         })
     }
 
-    pub(super) fn sift(&self, run: &Run<'_>) -> StagnantEvidence {
+    fn sift(&self, run: &mut DrainageRun<'_>) -> Sifted {
         let height = run.stagnant_height();
-        StagnantEvidence {
+        let evidence = StagnantEvidence {
             stagnant_margin: height.map(|it| it / (self.height * run.diameter) - 1.0),
+        };
+        Sifted {
+            label: if_yes(Label::STAGNANT_CORNERS, evidence.stagnant_margin),
+            values: evidence.values(),
         }
     }
 }

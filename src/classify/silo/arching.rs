@@ -2,8 +2,10 @@
 
 use super::outflow::Outflow;
 use crate::classify::measure::{evidence, measures};
-use crate::classify::{ClassifyError, Label, window};
+use crate::classify::sieve::{Sieve, Sifted, if_yes};
+use crate::classify::{ClassifyError, Label, Measure, window};
 use crate::document::unit;
+use crate::scene::Scene;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -45,18 +47,37 @@ measures! {
     }
 }
 
-impl ArchingSieve {
-    pub(super) fn check(&self, interval: f64) -> Result<(), ClassifyError> {
-        window::check("arching.window", self.window, interval)
+impl Sieve for ArchingSieve {
+    type Run<'a> = Outflow<'a>;
+
+    const LABELS: &'static [Label] = &[Label::ARCHING];
+
+    const MEASURES: &'static [Measure] = ArchingEvidence::MEASURES;
+
+    fn check(&self, scene: &Scene) -> Result<(), ClassifyError> {
+        window::check("arching.window", self.window, scene.time.frame_interval)
     }
 
-    pub(super) fn sift(&self, run: &Outflow<'_>) -> ArchingEvidence {
+    fn sift(&self, run: &mut Outflow<'_>) -> Sifted {
         let pause = self.pause(run);
-        ArchingEvidence {
+        let evidence = ArchingEvidence {
             arching_pause: pause,
             arching_margin: pause.map(|pause| self.margin(run, pause)),
             over_opening: run.over_opening(),
+        };
+        Sifted {
+            label: if_yes(Label::ARCHING, evidence.arching_margin),
+            values: evidence.values(),
         }
+    }
+}
+
+impl ArchingSieve {
+    /// Whether the outflow has stopped, and no grain is over the opening: what could leave has left.
+    pub(super) fn is_drained(&self, run: &Outflow<'_>) -> bool {
+        let pause = self.pause(run);
+        let has_stopped = pause.is_some_and(|pause| self.margin(run, pause) >= 0.0);
+        has_stopped && run.over_opening() == Some(0.0)
     }
 
     /// Time without an outflow at the end of the run (s).

@@ -2,8 +2,10 @@
 
 use super::outflow::Outflow;
 use crate::classify::measure::{evidence, measures};
-use crate::classify::{ClassifyError, Label, window};
+use crate::classify::sieve::{Sieve, Sifted, if_yes};
+use crate::classify::{ClassifyError, Label, Measure, window};
 use crate::document::unit;
+use crate::scene::Scene;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -37,16 +39,26 @@ measures! {
     }
 }
 
-impl EmptiedSieve {
-    pub(super) fn check(&self) -> Result<(), ClassifyError> {
+impl Sieve for EmptiedSieve {
+    type Run<'a> = Outflow<'a>;
+
+    const LABELS: &'static [Label] = &[Label::EMPTIED];
+
+    const MEASURES: &'static [Measure] = EmptiedEvidence::MEASURES;
+
+    fn check(&self, _: &Scene) -> Result<(), ClassifyError> {
         window::check_share("emptied.share", self.share)
     }
 
-    pub(super) fn sift(&self, run: &Outflow<'_>) -> EmptiedEvidence {
-        EmptiedEvidence {
-            emptied_margin: run
-                .opened
-                .map(|_| run.discharged() / run.grains - self.share),
+    fn sift(&self, run: &mut Outflow<'_>) -> Sifted {
+        let opened = run.opened;
+        let evidence = EmptiedEvidence {
+            emptied_margin: opened.map(|_| run.discharged() / run.grains - self.share),
+        };
+        let is_drained = run.is_drained.then_some(Label::EMPTIED);
+        Sifted {
+            label: if_yes(Label::EMPTIED, evidence.emptied_margin).or(is_drained),
+            values: evidence.values(),
         }
     }
 }

@@ -2,8 +2,10 @@
 
 use super::outflow::Outflow;
 use crate::classify::measure::{evidence, measures};
-use crate::classify::{ClassifyError, Label, window};
+use crate::classify::sieve::{Sieve, Sifted, if_yes};
+use crate::classify::{ClassifyError, Label, Measure, window};
 use crate::document::unit;
+use crate::scene::Scene;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -44,9 +46,15 @@ measures! {
     }
 }
 
-impl FlowingSieve {
-    pub(super) fn check(&self, interval: f64) -> Result<(), ClassifyError> {
-        window::check("flowing.window", self.window, interval)?;
+impl Sieve for FlowingSieve {
+    type Run<'a> = Outflow<'a>;
+
+    const LABELS: &'static [Label] = &[Label::FLOWING];
+
+    const MEASURES: &'static [Measure] = FlowingEvidence::MEASURES;
+
+    fn check(&self, scene: &Scene) -> Result<(), ClassifyError> {
+        window::check("flowing.window", self.window, scene.time.frame_interval)?;
         if self.least == 0 {
             return Err(ClassifyError::Threshold {
                 key: "flowing.least",
@@ -57,14 +65,18 @@ impl FlowingSieve {
         Ok(())
     }
 
-    pub(super) fn sift(&self, run: &Outflow<'_>) -> FlowingEvidence {
+    fn sift(&self, run: &mut Outflow<'_>) -> Sifted {
         let count = run.opened.map(|opened| {
             let from = opened.max(run.end - self.window);
             run.discharged() - run.discharged_by(from)
         });
-        FlowingEvidence {
+        let evidence = FlowingEvidence {
             flowing_count: count,
             flowing_margin: count.map(|count| count / self.least as f64 - 1.0),
+        };
+        Sifted {
+            label: if_yes(Label::FLOWING, evidence.flowing_margin),
+            values: evidence.values(),
         }
     }
 }

@@ -40,7 +40,7 @@ measures! {
 
 impl SiloOrder {
     pub(super) fn measure(run: &Outflow<'_>, emptied: &EmptiedSieve) -> Self {
-        let rest = Rest::of(run);
+        let rest = HeapAtRest::of(run);
         let at_rest = |values: &[f32]| Some(f64::from(values[rest.as_ref()?.frame?]));
         let (discharge_rate, mass_rate) = rates(run).unwrap_or_default();
         Self {
@@ -57,14 +57,14 @@ impl SiloOrder {
 }
 
 /// The filled silo at rest, from the time of rest until the door opened.
-struct Rest {
+struct HeapAtRest {
     since: f64,
     until: f64,
     /// The last frame in between.
     frame: Option<usize>,
 }
 
-impl Rest {
+impl HeapAtRest {
     fn of(run: &Outflow<'_>) -> Option<Self> {
         let (since, until) = (run.rest?, run.opened?);
         let time = &run.observations.time;

@@ -6,7 +6,7 @@ use crate::record::{MilestoneKind, RunRecord};
 use crate::scene::Start;
 
 /// A run of a silo as its sieves read it.
-pub(super) struct Outflow<'a> {
+pub(in crate::classify) struct Outflow<'a> {
     pub(super) record: &'a RunRecord,
     pub(super) observations: &'a Observations,
     /// Number of grains of the scene, those included that are not in yet or have left.
@@ -18,6 +18,8 @@ pub(super) struct Outflow<'a> {
     pub(super) opened: Option<f64>,
     /// Whether the run ended because all grains in the open silo were at rest.
     pub(super) stopped: bool,
+    /// Whether what could leave has left, as the arching sieve finds.
+    pub(super) is_drained: bool,
     /// Time of the last frame (s).
     pub(super) end: f64,
 }
@@ -58,6 +60,7 @@ impl<'a> Outflow<'a> {
                 .map(|it| it.time),
             opened,
             stopped: after.iter().any(|it| it.kind == MilestoneKind::AtRest),
+            is_drained: false,
             end: observations.time.last().copied().unwrap_or(0.0),
         })
     }

@@ -1,9 +1,11 @@
 //! The fluid sieve: a surface that rises from the axis to the wall.
 
-use super::run::Run;
+use super::run::TankRun;
 use crate::classify::measure::{evidence, measures};
-use crate::classify::{ClassifyError, Label, window};
+use crate::classify::sieve::{Sieve, Sifted, if_yes};
+use crate::classify::{ClassifyError, Label, Measure, window};
 use crate::document::unit;
+use crate::scene::Scene;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -56,9 +58,15 @@ measures! {
     }
 }
 
-impl FluidSieve {
-    pub(super) fn check(&self, interval: f64) -> Result<(), ClassifyError> {
-        window::check("fluid.window", self.window, interval)?;
+impl Sieve for FluidSieve {
+    type Run<'a> = TankRun<'a>;
+
+    const LABELS: &'static [Label] = &[Label::FLUID];
+
+    const MEASURES: &'static [Measure] = FluidEvidence::MEASURES;
+
+    fn check(&self, scene: &Scene) -> Result<(), ClassifyError> {
+        window::check("fluid.window", self.window, scene.time.frame_interval)?;
         window::check_share("fluid.share", self.share)?;
         if !self.rise.is_finite() {
             return Err(ClassifyError::Threshold {
@@ -70,17 +78,26 @@ impl FluidSieve {
         Ok(())
     }
 
-    /// Looks for a fluid from frame `start` on.
-    pub(super) fn sift(&self, run: &Run<'_>, start: usize) -> FluidEvidence {
-        let share = self.largest_share(run, start);
-        FluidEvidence {
-            fluid_share: share,
-            fluid_margin: share.map(|share| share - self.share),
-        }
+    fn window(&self) -> Option<f64> {
+        Some(self.window)
     }
 
+    fn sift(&self, run: &mut TankRun<'_>) -> Sifted {
+        let share = run.start.and_then(|start| self.largest_share(run, start));
+        let evidence = FluidEvidence {
+            fluid_share: share,
+            fluid_margin: share.map(|share| share - self.share),
+        };
+        Sifted {
+            label: if_yes(Label::FLUID, evidence.fluid_margin),
+            values: evidence.values(),
+        }
+    }
+}
+
+impl FluidSieve {
     /// Largest share of passing frames of any window.
-    fn largest_share(&self, run: &Run<'_>, start: usize) -> Option<f64> {
+    fn largest_share(&self, run: &TankRun<'_>, start: usize) -> Option<f64> {
         let profile = &run.observations.profile;
         if profile.ncols() <= self.failures + 1 {
             return None;

@@ -1,7 +1,7 @@
 //! Tanks: spheres that stay, in the vortex of the air (Rice, 2012, section 3).
 //!
 //! A run first has to settle. Each further sieve then looks for its state in what follows, and the
-//! last of them in the order of the table that says yes decides.
+//! last of them in the order of their list that says yes decides.
 
 mod fluid;
 mod order;
@@ -17,36 +17,21 @@ pub use pinned::PinnedSieve;
 pub use settle::SettleSieve;
 pub use spout::SpoutSieve;
 
+pub(super) use run::TankRun;
+
+use super::sieve::values;
+use super::sieves::TANK_SIEVES;
 use super::{ClassifyError, Family, Label, Sieves, window};
 use crate::record::RunRecord;
 use crate::scene::Scene;
-use fluid::FluidEvidence;
 use order::OrderParameters;
-use pinned::PinnedEvidence;
-use run::Run;
-use settle::Settling;
-use spout::SpoutEvidence;
 
 /// Scenes with a cylindrical tank and without an outlet.
 pub static TANK: Family = Family {
     name: "tank",
-    labels: &[
-        Label::UNSTABLE,
-        Label::UNSETTLED,
-        Label::SETTLED,
-        Label::FLUID,
-        Label::PINNED,
-        Label::SMALL_SPOUT,
-        Label::LARGE_SPOUT,
-    ],
-    sieves: &["settle", "fluid", "pinned", "spout"],
-    measures: &[
-        Settling::MEASURES,
-        FluidEvidence::MEASURES,
-        PinnedEvidence::MEASURES,
-        SpoutEvidence::MEASURES,
-        OrderParameters::MEASURES,
-    ],
+    sieves: TANK_SIEVES,
+    without_sieve: &[Label::UNSTABLE, Label::UNSETTLED],
+    order: OrderParameters::MEASURES,
     default_figures: &["phase", "settle-time"],
     takes: |scene| {
         scene
@@ -54,30 +39,12 @@ pub static TANK: Family = Family {
             .as_ref()
             .is_some_and(|tank| tank.radius.is_some())
     },
-    check,
-    windows,
+    check: |sieves, scene| {
+        check_steady(sieves, scene)?;
+        run::energy_scale(scene).map(|_| ())
+    },
     judge,
 };
-
-fn windows(sieves: &Sieves) -> Vec<(&'static str, f64)> {
-    vec![
-        ("settle", sieves.settle.window),
-        ("fluid", sieves.fluid.window),
-        ("pinned", sieves.pinned.window),
-        ("spout", sieves.spout.window),
-    ]
-}
-
-fn check(sieves: &Sieves, scene: &Scene) -> Result<(), ClassifyError> {
-    let interval = scene.time.frame_interval;
-    sieves.settle.check(interval)?;
-    sieves.fluid.check(interval)?;
-    sieves.pinned.check(interval)?;
-    sieves.spout.check(interval)?;
-    sieves.spout.column(&scene.output)?;
-    check_steady(sieves, scene)?;
-    run::energy_scale(scene).map(|_| ())
-}
 
 /// The shortest steady part of a run must hold the window of every sieve.
 fn check_steady(sieves: &Sieves, scene: &Scene) -> Result<(), ClassifyError> {
@@ -86,9 +53,9 @@ fn check_steady(sieves: &Sieves, scene: &Scene) -> Result<(), ClassifyError> {
     };
     let interval = scene.time.frame_interval;
     let room = window::frames(steady.window, interval);
-    let windows = windows(sieves).into_iter();
-    let mut longer = windows.filter(|(_, window)| window::frames(*window, interval) > room);
-    longer.next().map_or(Ok(()), |(sieve, window)| {
+    let mut windows = TANK.windows(sieves);
+    let longer = windows.find(|(_, window)| window::frames(*window, interval) > room);
+    longer.map_or(Ok(()), |(sieve, window)| {
         Err(ClassifyError::SteadyTooShort {
             sieve,
             window,
@@ -97,39 +64,16 @@ fn check_steady(sieves: &Sieves, scene: &Scene) -> Result<(), ClassifyError> {
     })
 }
 
+/// The last sieve that says yes decides.
 fn judge(record: &RunRecord, sieves: &Sieves) -> Result<(Label, Vec<Option<f64>>), ClassifyError> {
-    let run = Run::new(record, sieves.spout.column(&record.scene.output)?)?;
-    let (start, settling) = match record.steady_since() {
-        Some(since) => sieves.settle.sift_steady(&run, run.frame_at(since)),
-        None => sieves.settle.sift(&run),
-    };
-    let (mut fluid, mut pinned) = (FluidEvidence::default(), PinnedEvidence::default());
-    let mut spout = SpoutEvidence::default();
-    let mut label = Label::UNSETTLED;
-    if let Some(start) = start {
-        fluid = sieves.fluid.sift(&run, start);
-        pinned = sieves.pinned.sift(&run, start);
-        let (kind, evidence) = sieves.spout.sift(&run, start);
-        spout = evidence;
-        let yes = |margin: Option<f64>| margin.is_some_and(|margin| margin >= 0.0);
-        label = match kind {
-            Some(kind) => kind,
-            None if yes(pinned.pinned_margin) => Label::PINNED,
-            None if yes(fluid.fluid_margin) => Label::FLUID,
-            None => Label::SETTLED,
-        };
-    }
-    // Of a run that did not settle, what it does at its end.
-    let from = start.unwrap_or(run.frames() * 3 / 4);
-    let order = OrderParameters::measure(&run, from);
-    let values = [
-        settling.values(),
-        fluid.values(),
-        pinned.values(),
-        spout.values(),
-        order.values(),
-    ];
-    Ok((label, values.concat()))
+    let mut run = TankRun::new(record, sieves.spout.column(&record.scene.output)?)?;
+    let sifted = sieves.sift_tank(&mut run);
+    let label = sifted.iter().rev().find_map(|it| it.label);
+    let order = OrderParameters::measure(&run);
+    Ok((
+        label.unwrap_or(Label::UNSETTLED),
+        values(sifted, order.values()),
+    ))
 }
 
 #[cfg(test)]

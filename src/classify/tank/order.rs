@@ -1,6 +1,6 @@
 //! Continuous measures of the state, which tell apart what one label holds together.
 
-use super::run::Run;
+use super::run::TankRun;
 use crate::classify::measure::{measured, measures};
 
 measures! {
@@ -29,8 +29,9 @@ measures! {
 }
 
 impl OrderParameters {
-    /// Means over the frames from `start` on.
-    pub(super) fn measure(run: &Run<'_>, start: usize) -> Self {
+    /// Means over the settled part, or over the last quarter of a run that did not settle.
+    pub(super) fn measure(run: &TankRun<'_>) -> Self {
+        let start = run.start.unwrap_or(run.frames() * 3 / 4);
         let observations = run.observations;
         let mean_from_start = |values: &[f32]| mean(values.iter().skip(start).copied());
         let floor = run.scene.tank.as_ref().and_then(|tank| tank.floor);
@@ -73,7 +74,7 @@ fn mean(values: impl Iterator<Item = f32>) -> Option<f64> {
 
 /// Distance from the axis and mean height (m) of each bin that is occupied in at least half of
 /// the frames from `start` on.
-fn mean_profile(run: &Run<'_>, start: usize) -> Vec<(f64, f64)> {
+fn mean_profile(run: &TankRun<'_>, start: usize) -> Vec<(f64, f64)> {
     let profile = &run.observations.profile;
     let frames = profile.nrows().saturating_sub(start);
     let width = run.tank_radius / profile.ncols() as f64;

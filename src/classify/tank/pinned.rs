@@ -1,9 +1,11 @@
 //! The pinned sieve: a hole about the axis.
 
-use super::run::Run;
+use super::run::TankRun;
 use crate::classify::measure::{evidence, measures};
-use crate::classify::{ClassifyError, Label, window};
+use crate::classify::sieve::{Sieve, Sifted, if_yes};
+use crate::classify::{ClassifyError, Label, Measure, window};
 use crate::document::unit;
+use crate::scene::Scene;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -50,9 +52,15 @@ measures! {
     }
 }
 
-impl PinnedSieve {
-    pub(super) fn check(&self, interval: f64) -> Result<(), ClassifyError> {
-        window::check("pinned.window", self.window, interval)?;
+impl Sieve for PinnedSieve {
+    type Run<'a> = TankRun<'a>;
+
+    const LABELS: &'static [Label] = &[Label::PINNED];
+
+    const MEASURES: &'static [Measure] = PinnedEvidence::MEASURES;
+
+    fn check(&self, scene: &Scene) -> Result<(), ClassifyError> {
+        window::check("pinned.window", self.window, scene.time.frame_interval)?;
         window::check_share("pinned.share", self.share)?;
         if !self.hole.is_finite() || self.hole < 0.0 {
             return Err(ClassifyError::Threshold {
@@ -64,17 +72,26 @@ impl PinnedSieve {
         Ok(())
     }
 
-    /// Looks for a hole from frame `start` on.
-    pub(super) fn sift(&self, run: &Run<'_>, start: usize) -> PinnedEvidence {
-        let share = self.largest_share(run, start);
-        PinnedEvidence {
-            pinned_share: share,
-            pinned_margin: share.map(|share| share - self.share),
-        }
+    fn window(&self) -> Option<f64> {
+        Some(self.window)
     }
 
+    fn sift(&self, run: &mut TankRun<'_>) -> Sifted {
+        let share = run.start.and_then(|start| self.largest_share(run, start));
+        let evidence = PinnedEvidence {
+            pinned_share: share,
+            pinned_margin: share.map(|share| share - self.share),
+        };
+        Sifted {
+            label: if_yes(Label::PINNED, evidence.pinned_margin),
+            values: evidence.values(),
+        }
+    }
+}
+
+impl PinnedSieve {
     /// Largest share of frames with a hole of any window.
-    fn largest_share(&self, run: &Run<'_>, start: usize) -> Option<f64> {
+    fn largest_share(&self, run: &TankRun<'_>, start: usize) -> Option<f64> {
         // Single precision, as the distances: a centre at the limit is not beyond it.
         let limit = (self.hole * run.radius) as f32;
         let distances = &run.observations.hole_radius[start..];

@@ -8,7 +8,7 @@ use crate::scene::Scene;
 use ndarray::{ArrayView1, Axis};
 
 /// A run as the sieves read it.
-pub(super) struct Run<'a> {
+pub(in crate::classify) struct TankRun<'a> {
     pub(super) observations: &'a Observations,
     pub(super) scene: &'a Scene,
     /// Number of rising spheres at every frame, for the spout sieve's distance and speed.
@@ -25,9 +25,13 @@ pub(super) struct Run<'a> {
     pub(super) tank_radius: f64,
     /// Acceleration g (m/s2).
     pub(super) gravity: f64,
+    /// The frame from which the run is steady by the scene's own test.
+    pub(super) steady: Option<usize>,
+    /// The frame from which it is settled, which the settle sieve finds.
+    pub(super) start: Option<usize>,
 }
 
-impl<'a> Run<'a> {
+impl<'a> TankRun<'a> {
     /// The run of a record, with the rising spheres of one `column` (distance and speed).
     pub(super) fn new(
         record: &'a RunRecord,
@@ -37,9 +41,10 @@ impl<'a> Run<'a> {
         let (gravity, tank_radius) = energy_scale(&record.scene)?;
         let count = record.radius.len();
         let (distance, speed) = column;
-        let within = record.observations.rising.index_axis(Axis(1), distance);
+        let observations = &record.observations;
+        let within = observations.rising.index_axis(Axis(1), distance);
         Ok(Self {
-            observations: &record.observations,
+            observations,
             scene: &record.scene,
             rising: within.index_axis_move(Axis(1), speed),
             interval: record.scene.time.frame_interval,
@@ -48,16 +53,15 @@ impl<'a> Run<'a> {
             mass: record.mass.iter().sum(),
             tank_radius,
             gravity,
+            steady: record
+                .steady_since()
+                .map(|since| observations.time.partition_point(|it| *it < since)),
+            start: None,
         })
     }
 
     pub(super) fn frames(&self) -> usize {
         self.observations.frames()
-    }
-
-    /// The first frame from a time (s) on.
-    pub(super) fn frame_at(&self, time: f64) -> usize {
-        self.observations.time.partition_point(|it| *it < time)
     }
 
     /// Time of a frame (s).

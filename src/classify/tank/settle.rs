@@ -1,9 +1,11 @@
 //! The settle sieve: from when a run counts as steady.
 
-use super::run::Run;
+use super::run::TankRun;
 use crate::classify::measure::{evidence, measured, measures};
-use crate::classify::{ClassifyError, Label, window};
+use crate::classify::sieve::{Sieve, Sifted};
+use crate::classify::{ClassifyError, Label, Measure, window};
 use crate::document::unit;
+use crate::scene::Scene;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -71,8 +73,15 @@ measures! {
     }
 }
 
-impl SettleSieve {
-    pub(super) fn check(&self, interval: f64) -> Result<(), ClassifyError> {
+impl Sieve for SettleSieve {
+    type Run<'a> = TankRun<'a>;
+
+    const LABELS: &'static [Label] = &[Label::SETTLED];
+
+    const MEASURES: &'static [Measure] = Settling::MEASURES;
+
+    fn check(&self, scene: &Scene) -> Result<(), ClassifyError> {
+        let interval = scene.time.frame_interval;
         window::check("settle.window", self.window, interval)?;
         // A drift is told from two halves.
         window::check_of("settle.drift_window", self.drift_window, interval, 2)?;
@@ -96,9 +105,27 @@ impl SettleSieve {
         Ok(())
     }
 
+    fn window(&self) -> Option<f64> {
+        Some(self.window)
+    }
+
+    fn sift(&self, run: &mut TankRun<'_>) -> Sifted {
+        let (start, settling) = match run.steady {
+            Some(from) => self.steady_part(run, from),
+            None => self.first_steady_part(run),
+        };
+        run.start = start;
+        Sifted {
+            label: start.map(|_| Label::SETTLED),
+            values: settling.values(),
+        }
+    }
+}
+
+impl SettleSieve {
     /// A run that is steady from this frame on by the scene's own test. It is settled there unless
     /// a sphere is too high in every window since then.
-    pub(super) fn sift_steady(&self, run: &Run<'_>, from: usize) -> (Option<usize>, Settling) {
+    fn steady_part(&self, run: &TankRun<'_>, from: usize) -> (Option<usize>, Settling) {
         let (_, least) = self.first_window(run, &self.high(run), from);
         let start = least.map(|_| from);
         let settling = Settling {
@@ -110,7 +137,7 @@ impl SettleSieve {
     }
 
     /// Whether a sphere is too high (1, else 0), at each frame but the first.
-    fn high(&self, run: &Run<'_>) -> Vec<f64> {
+    fn high(&self, run: &TankRun<'_>) -> Vec<f64> {
         // Single precision, as the heights: a centre at the limit is not above it.
         let limit = self.height as f32;
         let heights = run.observations.height_max.iter().skip(1);
@@ -121,7 +148,7 @@ impl SettleSieve {
     /// least evidence of any that is low.
     fn first_window(
         &self,
-        run: &Run<'_>,
+        run: &TankRun<'_>,
         high: &[f64],
         from: usize,
     ) -> (Option<usize>, Option<f64>) {
@@ -134,7 +161,7 @@ impl SettleSieve {
     }
 
     /// Looks for the first steady window of a run: the first frame of the steady part.
-    pub(super) fn sift(&self, run: &Run<'_>) -> (Option<usize>, Settling) {
+    fn first_steady_part(&self, run: &TankRun<'_>) -> (Option<usize>, Settling) {
         let window = window::frames(self.window, run.interval);
         let high = self.high(run);
         let (start, least) = self.first_window(run, &high, 0);
@@ -195,7 +222,7 @@ fn steady_to_the_end(
 
 /// |Drift of the energy of motion| over that energy (1/s) in each window, from the second frame on:
 /// from the means of its first and its last half.
-fn drifts(run: &Run<'_>, window: usize) -> Vec<f64> {
+fn drifts(run: &TankRun<'_>, window: usize) -> Vec<f64> {
     let observations = run.observations;
     let energies = (1..run.frames()).map(|frame| {
         f64::from(observations.kinetic[frame]) + f64::from(observations.rotational[frame])
@@ -216,7 +243,7 @@ fn drifts(run: &Run<'_>, window: usize) -> Vec<f64> {
 
 /// |Change of energy| over M g R per millisecond (M: mass of all spheres), into each frame but
 /// the first.
-fn changes(run: &Run<'_>) -> Vec<f64> {
+fn changes(run: &TankRun<'_>) -> Vec<f64> {
     let observations = run.observations;
     let energy = |frame: usize| {
         f64::from(observations.kinetic[frame])

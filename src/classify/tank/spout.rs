@@ -1,10 +1,11 @@
 //! The spout sieve: spheres that keep rising in the middle.
 
-use super::run::Run;
+use super::run::TankRun;
 use crate::classify::measure::{evidence, measures};
-use crate::classify::{ClassifyError, Label, window};
+use crate::classify::sieve::{Sieve, Sifted};
+use crate::classify::{ClassifyError, Label, Measure, window};
 use crate::document::unit;
-use crate::scene::Output;
+use crate::scene::{Output, Scene};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -70,9 +71,15 @@ measures! {
     }
 }
 
-impl SpoutSieve {
-    pub(super) fn check(&self, interval: f64) -> Result<(), ClassifyError> {
-        window::check("spout.window", self.window, interval)?;
+impl Sieve for SpoutSieve {
+    type Run<'a> = TankRun<'a>;
+
+    const LABELS: &'static [Label] = &[Label::SMALL_SPOUT, Label::LARGE_SPOUT];
+
+    const MEASURES: &'static [Measure] = SpoutEvidence::MEASURES;
+
+    fn check(&self, scene: &Scene) -> Result<(), ClassifyError> {
+        window::check("spout.window", self.window, scene.time.frame_interval)?;
         for (key, share) in [("spout.small", self.small), ("spout.large", self.large)] {
             if share.is_nan() || share < 0.0 {
                 return Err(ClassifyError::Threshold {
@@ -82,9 +89,24 @@ impl SpoutSieve {
                 });
             }
         }
-        Ok(())
+        self.column(&scene.output).map(|_| ())
     }
 
+    fn window(&self) -> Option<f64> {
+        Some(self.window)
+    }
+
+    fn sift(&self, run: &mut TankRun<'_>) -> Sifted {
+        let found = run.start.map(|start| self.earliest(run, start));
+        let (label, evidence) = found.unwrap_or_default();
+        Sifted {
+            label,
+            values: evidence.values(),
+        }
+    }
+}
+
+impl SpoutSieve {
     /// Where the observable `rising` holds what this sieve needs: its indices of the distance
     /// and of the speed.
     pub(super) fn column(&self, output: &Output) -> Result<(usize, usize), ClassifyError> {
@@ -110,7 +132,7 @@ impl SpoutSieve {
 
     /// Looks for the earliest window with a spout from frame `start` on: its label, if there is
     /// one.
-    pub(super) fn sift(&self, run: &Run<'_>, start: usize) -> (Option<Label>, SpoutEvidence) {
+    fn earliest(&self, run: &TankRun<'_>, start: usize) -> (Option<Label>, SpoutEvidence) {
         let window = window::frames(self.window, run.interval);
         let count = run.count as f64;
         let below = |rising: usize, share: f64| (rising as f64) < share * count;

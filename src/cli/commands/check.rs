@@ -4,12 +4,12 @@ mod accuracy;
 mod stability;
 mod walls;
 
-use super::classify;
 use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
+use crate::cli::options::Workers;
 use crate::cli::time_step::{self, Tightest, tightest_limits};
 use crate::cli::values;
-use crate::cli::{format, job, overlaps};
+use crate::cli::{format, job, labels, overlaps};
 use phase::cost::{Forecast, Leaves, forecast};
 use phase::dem::timestep::{Limit, StepMargin};
 use phase::document::LoadError;
@@ -17,7 +17,7 @@ use phase::grid::{Axis, describe};
 use phase::run::Edits;
 use phase::scene::{FileKind, Scene, Start, Tank};
 use phase::study::{AnyFile, AnyStudy};
-use phase::sweep::{Job, Sweep, work};
+use phase::sweep::{Job, Sweep};
 use serde::Serialize;
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -26,11 +26,11 @@ use std::time::Duration;
 
 /// Check a scene, sweep or study file and say what it would run, without running it.
 ///
-/// A short trial of a few jobs tells how long it will take and how much memory and disk it needs.
+/// A short trial of a few jobs estimates the time, memory and disk space that it will need.
 ///
 /// The time step is compared with its limits (docs/time-step.md; --verbose lists all, with
-/// formulas). Above a limit that decides about stability a scene is refused; above half of it, and
-/// above an advised one, there is a warning.
+/// formulas). A scene above a limit of stability is refused; above half of it, or above an advised
+/// limit, there is a warning.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Example: what will the full diagram cost on 16 cores?
@@ -38,26 +38,22 @@ Example: what will the full diagram cost on 16 cores?
 pub(crate) struct Arguments {
     /// The scene, sweep or study file (TOML).
     file: PathBuf,
-    /// Simulations at the same time [default: all cores].
-    #[arg(short, long, value_name = "N", value_parser = values::at_least_one)]
-    jobs: Option<usize>,
-    /// A key of the scene with another value, as of `phase run`; may be given several times.
+    #[command(flatten)]
+    workers: Workers,
+    /// Set a key of the scene, as in `phase run`; may be given several times.
     #[arg(long, value_name = "KEY=VALUE", value_parser = values::setting)]
     set: Vec<String>,
-    /// A table or key to leave out of the scene, as of `phase run`; may be given several times.
+    /// Remove a table or key from the scene, as in `phase run`; may be given several times.
     #[arg(long, value_name = "KEY")]
     without: Vec<String>,
-    /// Only validate: no trial, no forecast.
+    /// Only validate, without trial and forecast.
     #[arg(long)]
     no_trial: bool,
-    /// Print the result as one JSON object (docs/json.md) instead of text.
-    #[arg(long)]
-    pub(super) json: bool,
 }
 
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
-    let workers = arguments.jobs.unwrap_or_else(work::default_workers);
-    let (sweep, kind) = match arguments.load().map_err(Failure::refused)? {
+    let workers = arguments.workers.count();
+    let (sweep, kind) = match arguments.load()? {
         AnyFile::Scene(scene) => (Sweep::of_scene(*scene), FileKind::Scene),
         AnyFile::Sweep(sweep) => (*sweep, FileKind::Sweep),
         AnyFile::Study(AnyStudy::Stability(study)) => {
@@ -71,9 +67,9 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
             (study.comparison.settings[0].sweep.clone(), FileKind::Sweep)
         }
     };
-    let jobs = sweep.jobs().map_err(Failure::refused)?;
+    let jobs = sweep.jobs()?;
     if kind == FileKind::Sweep {
-        sweep.check_sieves(&jobs).map_err(classify::cannot_label)?;
+        sweep.check_sieves(&jobs).map_err(labels::cannot_label)?;
     }
     console.result(describe_sweep(&sweep, jobs.len()));
     console.result(line("effects", effects(&sweep.scene).join(", ")));
@@ -88,7 +84,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     time_step::warn_of_jobs(&tightest, &sweep.axes, console);
     overlaps::warn_of_jobs(&jobs, &sweep.axes, console);
     if kind == FileKind::Sweep {
-        super::sweep::warn_of_windows(&sweep, &jobs, console);
+        labels::warn_of_windows(&sweep, &jobs, console);
     }
     let walls = walls::weakest(&jobs);
     if let Some(wall) = &walls {
@@ -175,7 +171,8 @@ fn describe_sweep(sweep: &Sweep, jobs: usize) -> String {
         let text = match budget > jobs {
             true => format!("{jobs} to start, then rounds of {round} up to {budget} in total"),
             false => format!(
-                "{jobs} to start, which are the budget: raise `refine.budget` for rounds of {round}"
+                "{jobs} to start, which is the whole budget: increase `refine.budget` for rounds \
+                 of {round}"
             ),
         };
         lines.push(line("refined", text));
@@ -282,7 +279,7 @@ fn print_forecast(
     console: &Console,
 ) -> Result<Forecast, Failure> {
     console.note("running the first part of a few jobs ...");
-    let forecast = forecast(jobs, workers, TRIAL_TIME, leaves).map_err(Failure::failed)?;
+    let forecast = forecast(jobs, workers, TRIAL_TIME, leaves)?;
     console.result(line(
         "forecast",
         format_args!(
@@ -339,7 +336,7 @@ struct Answer<'a> {
     jobs: usize,
     axes: Vec<AxisAnswer<'a>>,
     seeds: &'a [u64],
-    /// Most runs of a refined sweep; none if the whole grid is run.
+    /// Most runs of a refined sweep; `None` if the whole grid is run.
     budget: Option<usize>,
     spheres: usize,
     effects: Vec<String>,
@@ -347,10 +344,10 @@ struct Answer<'a> {
     frames: u64,
     steps_per_frame: u64,
     dt: f64,
-    /// That of `dt = "auto"`; none if the step was given.
+    /// The safety factor of `dt = "auto"`; `None` if the step was given.
     safety_factor: Option<f64>,
     limits: Vec<LimitAnswer>,
-    /// Whether walls of discs hold; none without any.
+    /// Whether walls of discs hold; `None` without such walls.
     walls: Option<walls::Answer>,
     forecast: Option<ForecastAnswer>,
 }
@@ -383,34 +380,16 @@ impl LimitAnswer {
 /// What the sweep will cost.
 #[derive(Serialize)]
 struct ForecastAnswer {
-    tried: usize,
     workers: usize,
-    sphere_steps: u64,
-    rate: f64,
-    seconds: f64,
-    memory: f64,
-    /// None where no records are left.
-    disk: Option<f64>,
+    #[serde(flatten)]
+    forecast: Forecast,
 }
 
 impl ForecastAnswer {
     fn new(forecast: &Forecast, workers: usize) -> Self {
-        let Forecast {
-            tried,
-            work,
-            rate,
-            seconds,
-            memory,
-            disk,
-        } = *forecast;
         Self {
-            tried,
             workers,
-            sphere_steps: work,
-            rate,
-            seconds,
-            memory,
-            disk,
+            forecast: *forecast,
         }
     }
 }

@@ -1,14 +1,15 @@
-//! `phase compare`: the numbers of runs beside each other, or the labels of two sweeps.
+//! `phase compare`: compares the numbers of runs, or the labels of two sweeps.
 
 mod inputs;
 mod sweeps;
 mod table;
 
+use crate::cli::columns::{in_columns, written};
 use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::folders;
+use crate::cli::options::Measured;
 use crate::cli::runs::check_labels;
-use crate::cli::values;
 use inputs::Column;
 use phase::compare::{Row, are_of_one_run};
 use phase::scene::Units;
@@ -18,18 +19,17 @@ use std::path::PathBuf;
 
 /// Compare runs: records, or two folders of sweeps.
 ///
-/// Drainages are measured: outflow, widening of the flow, packing, mixing, surface. Every number
-/// has its interval of 95 % over ten states or blocks of time, where one can be told. Lengths are
-/// over the diameter of the spheres. Of tanks and silos the label and the measures of `labels.csv`
-/// are told. Of two records the difference is told, too.
+/// For drainages: outflow, widening of the flow, packing, mixing and surface, with 95 % intervals
+/// over ten states or blocks of time where possible; lengths in diameters of the spheres. For tanks
+/// and silos: the label and the measures of `labels.csv`. For two records also the differences.
 ///
-/// Beside records of phase there may be dumps of LAMMPS, extended XYZ files, and files of VTK by
-/// the collection (`.pvd`) or series (`.series`) that says their times. The scene of the first
-/// record says what they do not (or `--scene`). A table that this command wrote takes the place of
-/// its records.
+/// Files of other programs can be compared too: dumps of LAMMPS, extended XYZ, and VTK files
+/// through the collection (`.pvd`) or series (`.series`) that holds their times. What they lack is
+/// taken from the scene of the first record, or from `--scene`. A table that this command wrote can
+/// be used instead of its records.
 ///
-/// Of two folders, runs of one point and seed are paired: the share with one label, and the mean
-/// differences of measures.
+/// Two results folders are compared by pairs of runs with the same point and seed: the share with
+/// equal labels, and the mean differences of measures.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Example: two drainages, and what differs
@@ -39,26 +39,14 @@ Example: another program
 Example: two sweeps
   phase compare results/steel results/steel-softened")]
 pub(crate) struct Arguments {
-    /// Records (HDF5, LAMMPS dump, extended XYZ, VTK) or tables (CSV), one or more; or two folders.
+    /// Records (HDF5, LAMMPS dump, extended XYZ, VTK) or tables (CSV); or two results folders.
     #[arg(required = true, value_name = "PATH")]
     paths: Vec<PathBuf>,
-    /// First and last time (s) of the states that count, since the opening [default: from a fifth
-    /// of the drainage to its end].
-    #[arg(long, value_name = "FROM,TO", value_parser = values::times)]
-    times: Option<[f64; 2]>,
-    /// The scene of files of other programs [default: that of the first record].
-    #[arg(long, value_name = "TOML")]
-    scene: Option<PathBuf>,
-    /// What names a record, in the order of the records [default: its file, and the keys in which
-    /// they differ].
-    #[arg(long = "label", value_name = "TEXT")]
-    labels: Vec<String>,
+    #[command(flatten)]
+    measured: Measured,
     /// A table to write (CSV).
     #[arg(short, long, value_name = "CSV")]
     out: Option<PathBuf>,
-    /// Print the result as one JSON object (docs/json.md) instead of text.
-    #[arg(long)]
-    pub(super) json: bool,
 }
 
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
@@ -67,24 +55,23 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         folders::make_for(table)?;
     }
     if arguments.paths.iter().any(|path| path.is_dir()) {
-        check_labels(&arguments.labels, arguments.paths.len(), true)?;
+        check_labels(&arguments.measured.labels, arguments.paths.len(), true)?;
         if let Some(file) = arguments.paths.iter().find(|path| !path.is_dir()) {
-            return Err(Failure::refused(format_args!(
-                "{}: this is no folder, and folders are compared with folders; compare records \
-                 with records",
-                file.display()
-            )));
+            return Err(Failure::refused(
+                "not a folder; compare folders with folders, and records with records",
+            )
+            .at(file));
         }
         return sweeps::main(arguments, console);
     }
-    let inputs = inputs::read(&arguments.paths, arguments.scene.as_deref())?;
+    let inputs = inputs::read(&arguments.paths, arguments.measured.scene.as_deref())?;
     let units = inputs::units(&inputs)?;
-    let columns = inputs::columns(&inputs, arguments.times)?;
-    let names = names(&columns, &arguments.labels)?;
+    let columns = inputs::columns(&inputs, arguments.measured.window.times)?;
+    let names = names(&columns, &arguments.measured.labels)?;
     if arguments.out.is_some() {
         table::check(&names)?;
     }
-    warn_of_windows(&columns, arguments.times, units, console);
+    warn_of_windows(&columns, arguments.measured.window.times, units, console);
     let rows = inputs::rows(&columns);
     let is_of_one_run = are_of_one_run(&rows);
     for (index, name) in names.iter().enumerate() {
@@ -97,18 +84,17 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         table::write(path, &rows, &names)?;
         console.file(path);
     }
-    console.answer(&Answer {
+    console.answer_with_files(&Answer {
         records: names,
         rows: rows
             .iter()
             .map(|row| Entry::new(row, is_of_one_run))
             .collect(),
-        files: console.files(),
     });
     Ok(Exit::Done)
 }
 
-/// Says of which times each record is measured, if they differ or are fewer than asked for.
+/// Warns of records that are measured at other times than the first one, or than requested.
 fn warn_of_windows(columns: &[Column], times: Option<[f64; 2]>, units: Units, console: &Console) {
     let windows = columns.iter().enumerate();
     let windows: Vec<(usize, [f64; 2])> = windows
@@ -123,8 +109,8 @@ fn warn_of_windows(columns: &[Column], times: Option<[f64; 2]>, units: Units, co
         if wanted.is_some_and(|wanted| differs(window, wanted)) {
             let [from, to] = window;
             console.warning(format_args!(
-                "{} is measured from {from} to {to} {} since the opening, not as the others or as \
-                 asked for; give --times that all records have",
+                "{} is measured from {from} to {to} {} since the opening, unlike the others or the \
+                 request; give --times that all records cover",
                 letter(place),
                 units.of_time()
             ));
@@ -169,56 +155,12 @@ fn lines(rows: &[Row], records: usize, units: Units, is_of_one_run: bool) -> Vec
     in_columns(&cells)
 }
 
-/// Rows of as many cells as lines of text, in columns.
-pub(super) fn in_columns<R: AsRef<[String]>>(rows: &[R]) -> Vec<String> {
-    let columns = rows.first().map_or(0, |row| row.as_ref().len());
-    let width = |column: usize| {
-        let cells = rows.iter().filter_map(|row| row.as_ref().get(column));
-        cells.map(|cell| cell.chars().count()).max()
-    };
-    let widths: Vec<usize> = (0..columns).filter_map(width).collect();
-    let line = |row: &R| {
-        let cells = row.as_ref().iter().zip(&widths);
-        let padded = cells.map(|(cell, &width)| format!("{cell:<width$}"));
-        padded.collect::<Vec<_>>().join("  ").trim_end().to_owned()
-    };
-    rows.iter().map(line).collect()
-}
-
-/// A value with its interval, if that is known.
-pub(super) fn written(estimate: Estimate) -> String {
-    match estimate.half_width.is_finite() {
-        true => format!(
-            "{:.4} ± {:.2}",
-            Short(estimate.value),
-            Short(estimate.half_width)
-        ),
-        false => format!("{:.4}", Short(estimate.value)),
-    }
-}
-
-/// A number with so many significant digits as the precision says.
-struct Short(f64);
-
-impl std::fmt::Display for Short {
-    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let digits = formatter.precision().unwrap_or(4).saturating_sub(1);
-        let rounded: f64 = format!("{:.digits$e}", self.0).parse().unwrap_or(self.0);
-        match rounded.abs() {
-            0.0 | 1e-3..1e6 => write!(formatter, "{rounded}"),
-            _ => write!(formatter, "{rounded:e}"),
-        }
-    }
-}
-
 /// What `--json` prints.
 #[derive(Serialize)]
 struct Answer {
     /// The records: file, and what differs.
     records: Vec<String>,
     rows: Vec<Entry>,
-    /// The files written.
-    files: Vec<String>,
 }
 
 /// A quantity of all records.

@@ -16,10 +16,10 @@ use std::time::Duration;
 
 /// Measure what each effect and each part of the engine costs in a scene or sweep.
 ///
-/// The file is run for some seconds of processor time and leaves no record. The cost of the whole
-/// run is extrapolated. The clock is read between the parts in one step out of 16 to 256. In a
-/// sweep the jobs at the corners and in the middle of the grid are run, one after the other; each
-/// stands for the jobs nearest to it.
+/// Runs the file for some seconds of processor time, without a record, and extrapolates to the
+/// whole run. The clock is read between the parts in one step out of 16 to 256. In a sweep the jobs
+/// at the corners and in the middle of the grid are run, one after the other; each represents the
+/// jobs nearest to it.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Example: where the time goes in the realistic tank
@@ -27,29 +27,26 @@ Example: where the time goes in the realistic tank
 pub(crate) struct Arguments {
     /// The scene or sweep file (TOML).
     file: PathBuf,
-    /// Processor time for all runs together (s), one frame of each at least.
+    /// Processor time for all runs together (s); each runs for at least one frame.
     #[arg(long, value_name = "SECONDS", default_value = "10", value_parser = values::seconds)]
     seconds: Duration,
-    /// Print the result as one JSON object (docs/json.md) instead of text.
-    #[arg(long)]
-    pub(super) json: bool,
 }
 
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
     let (sweep, kind) = kind::load_scene_or_sweep(&arguments.file)?;
-    let jobs = sweep.jobs().map_err(Failure::refused)?;
+    let jobs = sweep.jobs()?;
     let unit = job::unit_of(&jobs);
     let seconds = format::duration(arguments.seconds.as_secs_f64());
     console.note(format_args!("measuring for up to about {seconds} ..."));
-    let cost = SweepCost::measure(&jobs, arguments.seconds).map_err(Failure::failed)?;
+    let cost = SweepCost::measure(&jobs, arguments.seconds)?;
     for tried in &cost.tried {
         console.result(describe_tried(tried, &sweep.axes, jobs.len(), unit));
     }
     print_parts(&cost, unit, console);
     let about = match cost.tried.iter().all(|tried| tried.cost.whole) && jobs.len() == 1 {
         true => "the run took",
-        false if jobs.iter().any(|job| job.scene.has_flow()) => "all of it takes at most about",
-        false => "all of it takes about",
+        false if jobs.iter().any(|job| job.scene.has_flow()) => "the whole takes at most about",
+        false => "the whole takes about",
     };
     console.result(format_args!(
         "{about} {} of processor time for {}",
@@ -66,7 +63,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     Ok(Exit::Done)
 }
 
-/// What of a job was run, and what it stands for.
+/// How much of a job was run, and what it represents.
 fn describe_tried(tried: &Tried<'_>, axes: &[Axis], jobs: usize, unit: &str) -> String {
     let cost = &tried.cost;
     let extent = match (&cost.record.outcome, cost.whole) {
@@ -85,7 +82,7 @@ fn describe_tried(tried: &Tried<'_>, axes: &[Axis], jobs: usize, unit: &str) -> 
         return what;
     }
     format!(
-        "{}: {what}; {:.1} ns per {}, stands for {}",
+        "{}: {what}; {:.1} ns per {}, represents {}",
         describe(axes, &tried.job.values, tried.job.seed),
         1e9 * cost.total() / cost.work.max(1) as f64,
         unit.trim_end_matches('s'),

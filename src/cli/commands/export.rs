@@ -1,8 +1,8 @@
 //! `phase export`: writes the spheres of records for other programs, browsers among them.
 
-use super::plot::ANOTHER_FOLDER;
 use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
+use crate::cli::folders::ANOTHER_FOLDER;
 use crate::cli::values;
 use crate::cli::{folders, format};
 use phase::observe::Snapshot;
@@ -14,8 +14,8 @@ use std::path::{Path, PathBuf};
 
 /// Write the spheres of records for other programs.
 ///
-/// Takes every frame of the trajectory if the record has one, else its snapshots, and says which.
-/// `phase run --trajectory` makes a record with every frame.
+/// Writes every frame of the trajectory if the record has one, otherwise its snapshots, and says
+/// which. `phase run --trajectory` makes a record with every frame.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Formats:
@@ -24,13 +24,13 @@ Formats:
   npy   NAME/*.npy for NumPy: time, position, velocity, spin, radius, mass
   csv   NAME.csv, one row per state and sphere; NAME-observations.csv, one row per frame
   svg   NAME/frame_*.svg, a picture per state for browsers and documents: walls red, door green,
-        grains blue, to scale; of a tank the view from the side
+        grains blue, to scale; a tank is seen from the side
   page  NAME.html, one page that plays the run in a browser, without any other file
   dump  dump_r..._p..._f....npy, the thesis's own: frames x spheres x 4 of x, y, z (m) and
         energy (J); the name says radius, density and Omega, and the seed unless it is 1
 
-Where spheres come and go, xyz, vtk and csv hold those that are in, by their id, and npy says NaN of
-those that are not. Fixed spheres go to NAME-fixed.xyz, NAME-fixed.csv, walls.npy and door.npy, and
+If spheres enter or leave, xyz, vtk and csv hold the spheres inside, by their id, and npy holds NaN
+for the others. Fixed spheres go to NAME-fixed.xyz, NAME-fixed.csv, walls.npy and door.npy, and
 to further parts of a ParaView series.
 
 Example: one frame in ten for ParaView
@@ -50,16 +50,13 @@ pub(crate) struct Arguments {
     /// The format to write.
     #[arg(long, value_name = "FORMAT")]
     to: Format,
-    /// The folder to write into, made if it is not there; or, of a single record, the .xyz, .pvd,
-    /// .csv, .html or .npy file [default: beside the record].
+    /// The folder to write to; for a single record also a .xyz, .pvd, .csv, .html or .npy file
+    /// [default: the record's folder].
     #[arg(short, long, value_name = "PATH")]
     out: Option<PathBuf>,
-    /// Write one state in N, from the first on.
+    /// Write one state in N, starting with the first.
     #[arg(long, value_name = "N", value_parser = values::at_least_one)]
     every: Option<usize>,
-    /// Print the files written as one JSON object (docs/json.md) instead of text.
-    #[arg(long)]
-    pub(super) json: bool,
 }
 
 /// A format to write.
@@ -141,8 +138,8 @@ fn refuse_foreign_arrays(folder: &Path) -> Result<(), Failure> {
     let is_there = |name: &&str| folder.join(name).exists();
     match store::ARRAYS.into_iter().find(is_there) {
         Some(name) if !store::ARRAYS.iter().all(is_there) => Err(Failure::refused(format_args!(
-            "{}: this array is not of an export, which would replace it; {ANOTHER_FOLDER}, or \
-                 move it away",
+            "{}: this array is not part of an export, and would be overwritten; {ANOTHER_FOLDER}, \
+             or move it away",
             folder.join(name).display()
         ))),
         _ => Ok(()),
@@ -152,7 +149,7 @@ fn refuse_foreign_arrays(folder: &Path) -> Result<(), Failure> {
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
     if arguments.to == Format::Dump && arguments.every.is_some() {
         return Err(Failure::refused(
-            "a dump holds every frame, as the sieves need them: leave out --every",
+            "a dump holds every frame, because the sieves need them; drop --every",
         ));
     }
     let mut failed = Vec::new();
@@ -175,20 +172,15 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         true => Exit::Done,
         false => Exit::Failed,
     };
-    console.answer(&Answer {
-        failed,
-        files: console.files(),
-    });
+    console.answer_with_files(&Answer { failed });
     Ok(exit)
 }
 
 /// What `--json` prints.
 #[derive(Serialize)]
 struct Answer {
-    /// Of several records those that could not be exported.
+    /// Of several records the ones that could not be exported.
     failed: Vec<FailedRecord>,
-    /// The files written.
-    files: Vec<String>,
 }
 
 /// A record that could not be exported, and why.
@@ -205,19 +197,19 @@ fn targets(arguments: &Arguments) -> Result<Vec<Result<PathBuf, Failure>>, Failu
         && out.extension().is_some_and(|it| it != extension)
     {
         return Err(Failure::refused(format_args!(
-            "{}: give a folder, or of a single record a file that ends in .{extension}",
-            out.display()
-        )));
+            "give a folder, or for a single record a file that ends in .{extension}"
+        ))
+        .at(out));
     }
     let mut written: HashMap<PathBuf, &Path> = HashMap::new();
     let mut targets = Vec::new();
     for path in &arguments.records {
-        let target = target(arguments, path).map_err(Failure::refused);
+        let target = target(arguments, path).map_err(Failure::from);
         if let Ok(target) = &target
             && let Some(other) = written.insert(target.clone(), path)
         {
             return Err(Failure::refused(format_args!(
-                "{} and {} would both be written to {}; export them one by one, each to its own \
+                "{} and {} would both be written to {}; export them one by one with different \
                  --out",
                 other.display(),
                 path.display(),
@@ -231,7 +223,7 @@ fn targets(arguments: &Arguments) -> Result<Vec<Result<PathBuf, Failure>>, Failu
 
 /// Where an export goes: the file that stands for it, or the folder of its arrays.
 fn target(arguments: &Arguments, record_path: &Path) -> Result<PathBuf, StoreError> {
-    // Whether it is a record at all shows before anything is written.
+    // Refuse what is no record before anything is written.
     store::read_record_header(record_path)?;
     let extension = arguments.to.extension();
     let beside = record_path.parent().unwrap_or(Path::new(""));
@@ -274,10 +266,10 @@ fn export(
     };
     let chosen: Vec<&Snapshot> = all.iter().step_by(every).collect();
     if chosen.is_empty() {
-        return Err(Failure::failed(format_args!(
-            "{}: the record holds no states of the spheres; run it again with --snapshot-interval",
-            path.display()
-        )));
+        return Err(Failure::failed(
+            "the record holds no states of the spheres; run it again with --snapshot-interval",
+        )
+        .at(path));
     }
     console.note(format_args!(
         "{}: {states}: {}",
@@ -285,21 +277,21 @@ fn export(
         format::count(chosen.len(), "state")
     ));
     if arguments.to == Format::Dump && record.scene.has_flow() {
-        return Err(Failure::refused(format_args!(
-            "{}: spheres come and go in this run, for which the thesis's dump has no place; npy \
-             holds the same numbers",
-            path.display()
-        )));
+        return Err(Failure::refused(
+            "the thesis's dump cannot represent spheres that enter or leave; use --to npy, which \
+             has the same numbers",
+        )
+        .at(path));
     }
     if arguments.to == Format::Dump && matches!(states, States::Snapshots(_)) {
         console.note(
-            "a dump of snapshots cannot be classified, which takes every frame: run it again with \
+            "a dump of snapshots cannot be classified, which needs every frame: run it again with \
              `phase run --trajectory`",
         );
     }
     if arguments.to == Format::Dump && record.radius.iter().any(|it| *it != record.radius[0]) {
         console.note(
-            "the name of a dump says one radius, here the mean: `phase classify --scene` needs a \
+            "the name of a dump holds one radius, here the mean: `phase classify --scene` needs a \
              scene that lists the radius of each sphere",
         );
     }
@@ -332,12 +324,11 @@ fn write(
         }
         Format::Page => store::write_page(record, states, target),
         Format::Dump => store::write_dump(record, states, target),
-    }
-    .map_err(Failure::failed)?;
+    }?;
     let mut written = vec![target.to_owned()];
     for (name, write) in more(record, format) {
         let path = format.beside(target, name);
-        write(record, &path).map_err(Failure::failed)?;
+        write(record, &path)?;
         written.push(path);
     }
     Ok(written)

@@ -1,9 +1,10 @@
-//! `phase fit`: the parameters of a simpler model that a run follows.
+//! `phase fit`: fits the parameters of a simpler model to a run.
 
+use crate::cli::columns::{in_columns, written};
 use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::folders;
-use crate::cli::values;
+use crate::cli::options::Window;
 use phase::compare::{Drainage, SpotFit};
 use phase::scene::{Scene, Units};
 use phase::statistics::Estimate;
@@ -13,13 +14,12 @@ use std::path::PathBuf;
 
 /// Fit the parameters of the spot model to the record of a drainage, and write a scene with them.
 ///
-/// By the procedure of Rycroft, Bazant, Grest and Landry (2006): b from the width of the flow, w
-/// from the diffusion of spheres, the radius from the correlation of velocities, the rates from the
-/// outflow and from the drop of the density. Each has its interval of 95 %, over ten states or
-/// blocks of time.
+/// Follows Rycroft, Bazant, Grest and Landry (2006): b from the width of the flow, w from the
+/// diffusion of spheres, the radius from the correlation of velocities, the rates from the outflow
+/// and from the drop of the density. Each has a 95 % interval over ten states or blocks of time.
 #[derive(clap::Args)]
 #[command(after_help = "\
-Example: discrete elements, and spots with the parameters that these ask for
+Example: fit spots to a run of discrete elements, and compare
   phase fit dem.h5 --times 40,160 --out spots.toml
   phase run spots.toml
   phase compare dem.h5 results/spots.h5 --times 40,160")]
@@ -30,16 +30,11 @@ pub(crate) struct Arguments {
     /// The model.
     #[arg(long, default_value = "spot")]
     model: Model,
-    /// First and last time (s) of the states that count, since the opening [default: from a fifth
-    /// of the drainage to its end].
-    #[arg(long, value_name = "FROM,TO", value_parser = values::times)]
-    times: Option<[f64; 2]>,
+    #[command(flatten)]
+    window: Window,
     /// The scene to write (TOML).
     #[arg(short, long, value_name = "TOML")]
     out: Option<PathBuf>,
-    /// Print the result as one JSON object (docs/json.md) instead of text.
-    #[arg(long)]
-    pub(super) json: bool,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
@@ -59,7 +54,7 @@ struct Parameter {
     value: fn(&SpotFit) -> Estimate,
 }
 
-/// What a number is of.
+/// Dimension of a parameter.
 #[derive(Clone, Copy)]
 enum Dimension {
     /// A length, in diameters d.
@@ -119,35 +114,34 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         folders::make_for(scene)?;
     }
     let path = arguments.record.display();
-    let record = store::read_record(&arguments.record).map_err(Failure::refused)?;
+    let record = store::read_record(&arguments.record)?;
     let lacks = |needs: &str| Failure::refused(format_args!("{path}: a fit needs {needs}"));
-    let drainage = Drainage::new(&record, arguments.times).map_err(lacks)?;
+    let drainage = Drainage::new(&record, arguments.window.times).map_err(lacks)?;
     let fit = SpotFit::of(&drainage).map_err(lacks)?;
     let head = ["key", "symbol", "fit", "paper", "from"].map(str::to_owned);
     let rows = PARAMETERS.iter().map(|it| row(it, &fit, &record.scene));
     let rows: Vec<[String; 5]> = std::iter::once(head).chain(rows).collect();
-    for line in super::compare::in_columns(&rows) {
+    for line in in_columns(&rows) {
         console.result(line);
     }
     console.note(
-        "intervals tell the scatter within this run, not what the procedure is off by: \
-         analysis/spot.md of the project has fits of spots whose parameters are known",
+        "the intervals are the scatter within this run, not the error of the procedure: \
+         analysis/spot.md of the project fits spots whose parameters are known",
     );
     if let Some(path) = &arguments.out {
         let text = scene(&drainage, &fit);
-        store::write_atomic(path, text.as_bytes()).map_err(Failure::failed)?;
+        store::write_atomic(path, text.as_bytes())?;
         console.file(path);
         if let Err(error) = Scene::from_toml(&text, path) {
             console.warning(format_args!(
-                "spots of these parameters cannot be run in this box, as `phase run` will say \
-                 too:\n{error}"
+                "spots with these parameters cannot be run in this box; `phase run` will refuse \
+                 the scene:\n{error}"
             ));
         }
     }
     let entry = |it: &Parameter| Entry::new(it, &fit, &record.scene);
-    console.answer(&Answer {
+    console.answer_with_files(&Answer {
         parameters: PARAMETERS.iter().map(entry).collect(),
-        files: console.files(),
     });
     Ok(Exit::Done)
 }
@@ -175,7 +169,7 @@ fn row(parameter: &Parameter, fit: &SpotFit, scene: &Scene) -> [String; 5] {
     [
         format!("spot.{}", parameter.key),
         parameter.symbol.to_owned(),
-        super::compare::written((parameter.value)(fit)),
+        written((parameter.value)(fit)),
         paper.map_or_else(|| "-".to_owned(), |paper| rounded(paper).to_string()),
         parameter.from.to_owned(),
     ]
@@ -235,8 +229,6 @@ fn scene(drainage: &Drainage<'_>, fit: &SpotFit) -> String {
 #[derive(Serialize)]
 struct Answer {
     parameters: Vec<Entry>,
-    /// The files written.
-    files: Vec<String>,
 }
 
 /// A parameter.

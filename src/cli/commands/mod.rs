@@ -3,16 +3,13 @@
 mod check;
 mod classify;
 mod compare;
-mod completions;
 mod cost;
 mod export;
 mod fit;
-mod man;
+mod generate;
 mod new;
 mod plot;
-mod reference;
 mod run;
-mod schema;
 mod status;
 mod study;
 mod sweep;
@@ -39,31 +36,13 @@ pub(super) enum Command {
     Status(status::Arguments),
     Verify(verify::Arguments),
     New(new::Arguments),
-    Schema(schema::Arguments),
-    Reference(reference::Arguments),
-    Completions(completions::Arguments),
-    Man(man::Arguments),
+    Generate(generate::Arguments),
 }
 
 impl Command {
-    /// Whether the result is for a program.
-    pub(super) fn wants_json(&self) -> bool {
-        match self {
-            Self::Sweep(arguments) => arguments.json,
-            Self::Classify(arguments) => arguments.json,
-            Self::Plot(arguments) => arguments.json,
-            Self::Run(arguments) => arguments.json,
-            Self::Export(arguments) => arguments.json,
-            Self::View(arguments) => arguments.json,
-            Self::Check(arguments) => arguments.json,
-            Self::Cost(arguments) => arguments.json,
-            Self::Compare(arguments) => arguments.json,
-            Self::Fit(arguments) => arguments.json,
-            Self::Study(arguments) => arguments.options.json,
-            Self::Status(arguments) => arguments.json,
-            Self::Verify(arguments) => arguments.json,
-            _ => false,
-        }
+    /// Whether the command has a result for programs.
+    pub(super) fn has_answer(&self) -> bool {
+        !matches!(self, Self::New(_) | Self::Generate(_))
     }
 
     /// Does what the command says.
@@ -83,10 +62,7 @@ impl Command {
             Self::Status(arguments) => status::main(arguments, console),
             Self::Verify(arguments) => verify::main(arguments, console),
             Self::New(arguments) => new::main(arguments, console),
-            Self::Schema(arguments) => schema::main(arguments, console),
-            Self::Reference(arguments) => reference::main(arguments, console),
-            Self::Completions(arguments) => completions::main(arguments, console),
-            Self::Man(arguments) => man::main(arguments, console),
+            Self::Generate(arguments) => generate::main(arguments, console),
         }
     }
 }

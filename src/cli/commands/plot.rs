@@ -5,20 +5,21 @@ mod records;
 
 use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
+use crate::cli::figures::drawn;
 use crate::cli::folders::{self, Entry};
+use crate::cli::options::Measured;
 use crate::cli::runs::check_labels;
-use crate::cli::values;
 use folder::{FitEntry, FolderAnswer};
-use phase::classify::{Family, LabelTable};
-use phase::plot::{self, About, PlotError, Svg};
-use phase::record::Program;
-use phase::store;
-use phase::sweep::{Folder, Selection, Sweep, parse_point};
+use phase::plot::{self, About};
+use phase::sweep::{Folder, Selection, parse_point};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
-/// Draw the figures of a results folder, as SVG and PNG, from its labels.csv and records, or those
-/// of the record of one run or several: the tracks of its spheres, the ledger of its energy.
+/// Draw the figures of a results folder (from its labels.csv and records) or of single records, as
+/// SVG and PNG.
+///
+/// Figures of drainages measure the states within --times; `packing-map` shows the states at these
+/// two times.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Example: what can be drawn of a folder, and one of it
@@ -35,53 +36,37 @@ Example: two drainages in one figure, from when the flow has developed
 Example: a drainage beside points of a paper
   phase plot full.h5 --figure cross-profile --times 80,180 --data paper.csv")]
 pub(crate) struct Arguments {
-    /// A results folder of `phase sweep`, a folder that holds several, or a record (.h5); or
-    /// several records, for figures that show them beside each other. Beside records there may be
-    /// files of other programs, as of `phase compare`.
+    /// A results folder of `phase sweep`, a folder that holds several, or one or more records
+    /// (.h5). Several records are shown in one figure, together with files of other programs as in
+    /// `phase compare`.
     #[arg(required_unless_present = "list", value_name = "DIR|RECORD")]
     paths: Vec<PathBuf>,
-    /// A figure to draw; may be given several times [default: phase and settle-time of a tank's
-    /// folder, phase and discharge-rate of a silo's, of a record what it holds of tracks and
-    /// ledger].
+    /// A figure to draw; may be given several times [default: tank folder: phase, settle-time; silo
+    /// folder: phase, discharge-rate; record: tracks and ledger, if stored].
     #[arg(short, long, value_name = "NAME", value_delimiter = ',')]
     figure: Vec<String>,
-    /// A point of the grid, such as `radius=0.003,omega=6`, and if you like `seed=2`, for figures
-    /// of single runs; may be given several times.
+    /// A point of the grid for figures of single runs, such as `radius=0.003,omega=6` or
+    /// `radius=0.003,omega=6,seed=2`; may be given several times.
     #[arg(short, long = "point", value_name = "POINT", requires = "figure")]
     points: Vec<String>,
-    /// First and last time (s) of the states that figures of drainages measure [default: from a
-    /// fifth of the run to its end], or the two that `packing-map` shows.
-    #[arg(long, value_name = "FROM,TO", value_parser = values::times)]
-    times: Option<[f64; 2]>,
-    /// The scene of files of other programs [default: that of the first record].
-    #[arg(long, value_name = "TOML")]
-    scene: Option<PathBuf>,
-    /// Points of another source to show beside records, such as a figure of a paper (CSV: place and
-    /// value in the units of the axes, and if you like the half width of an interval); may be given
-    /// several times. Its file names it.
+    #[command(flatten)]
+    measured: Measured,
+    /// Points from another source, such as a paper, to add to figures of records (CSV: place, value
+    /// and optionally the half width of an interval, in the units of the axes). The file's name is
+    /// the legend. May be given several times.
     #[arg(long, value_name = "CSV", requires = "figure")]
     data: Vec<PathBuf>,
-    /// Folder for the figures [default: the results folder, or that of the record].
-    #[arg(short, long, value_name = "DIR", conflicts_with = "list")]
+    /// Folder for the figures [default: the results folder, or the record's folder].
+    #[arg(short, long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// What the names of the files begin with, of records [default: the name of the record; of
-    /// several nothing].
-    #[arg(long, value_name = "NAME", conflicts_with = "list")]
+    /// Prefix of the output files when plotting records [default: the record's name; none for
+    /// several records].
+    #[arg(long, value_name = "NAME")]
     name: Option<String>,
-    /// What names a record, in the order of the records [default: the keys in which they differ].
-    #[arg(long = "label", value_name = "TEXT", conflicts_with = "list")]
-    labels: Vec<String>,
-    /// Print the names of all figures, or of those that can be drawn of DIR, and what they show;
-    /// draw nothing.
-    #[arg(short, long)]
+    /// List all figures, or those that can be drawn from DIR, with what they show; draw nothing.
+    #[arg(short, long, conflicts_with_all = ["out", "name", "labels"])]
     list: bool,
-    /// Print the result as one JSON object (docs/json.md) instead of text.
-    #[arg(long)]
-    pub(super) json: bool,
 }
-
-/// The figure of refined sweeps.
-const REFINED: &str = "refined";
 
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
     arguments.check()?;
@@ -95,8 +80,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         [] => Entry::exit(&answer.folders, |folder| folder.problems.is_empty()),
         [_, ..] => Exit::Failed,
     };
-    answer.files = console.files();
-    console.answer(&answer);
+    console.answer_with_files(&answer);
     Ok(exit)
 }
 
@@ -113,36 +97,33 @@ impl Arguments {
             .find(|path| self.paths.len() > 1 && !path.is_file())
         {
             let reason = match folder.exists() {
-                true => "several are drawn beside each other only if all are records (.h5)",
-                false => "there is no such file; check the path",
+                true => "several paths must all be records (.h5)",
+                false => "no such file; check the path",
             };
-            return Err(Failure::refused(format_args!(
-                "{}: {reason}",
-                folder.display()
-            )));
+            return Err(Failure::refused(reason).at(folder));
         }
         if self.name.is_some() && is_one_folder {
             return Err(Failure::refused(
-                "--name is for figures of records: those of a folder have their own names",
+                "--name is for figures of records; figures of a folder have fixed names",
             ));
         }
-        if self.scene.is_some() && is_one_folder {
+        if self.measured.scene.is_some() && is_one_folder {
             return Err(Failure::refused(
-                "--scene is for files of other programs: a folder has that of its sweep",
+                "--scene is for files of other programs; a results folder has its own scene",
             ));
         }
         if let Some(data) = self.data.first().filter(|_| is_one_folder) {
             return Err(Failure::refused(format_args!(
-                "--data {}: it is shown beside records, not in figures of a folder",
+                "--data {}: data can be added to figures of records, not of a folder",
                 data.display()
             )));
         }
-        if self.times.is_some() && is_one_folder && self.figure.is_empty() {
+        if self.measured.window.times.is_some() && is_one_folder && self.figure.is_empty() {
             return Err(Failure::refused(
-                "--times is for figures of drainages: name one of them with --figure",
+                "--times is for figures of drainages; name one with --figure",
             ));
         }
-        check_labels(&self.labels, self.paths.len(), is_one_folder)
+        check_labels(&self.measured.labels, self.paths.len(), is_one_folder)
     }
 }
 
@@ -157,8 +138,6 @@ struct Answer {
     folders: Vec<Entry<FolderAnswer>>,
     /// Figures of records that could not be drawn, and why.
     problems: Vec<String>,
-    /// The files written.
-    files: Vec<String>,
 }
 
 /// A figure that can be drawn.
@@ -200,9 +179,9 @@ impl Answer {
             .into_iter()
             .map(|figure| (figure, false))
             .collect();
-        let found = Folder::find(dir).map_err(Failure::refused)?;
+        let found = Folder::find(dir)?;
         self.folders = folders::go_through(dir, found, console, |folder| {
-            let sweep = folder.read_sweep().map_err(Failure::failed)?;
+            let sweep = folder.read_sweep()?;
             let table = folder::read_labels(folder)?.with_variants(sweep.variants());
             for (figure, is_drawn) in is_drawn.iter_mut().filter(|(_, is_drawn)| !is_drawn) {
                 let of_folder = (folder, &sweep, &table);
@@ -225,17 +204,17 @@ impl Answer {
         if let Some(name) = arguments.figure.iter().find(|name| !is_known(name)) {
             if records::OF_ONE.iter().any(|known| known.name == *name) {
                 return Err(Failure::refused(format_args!(
-                    "`{name}` is drawn from the record of one run; name its .h5 file instead of {}",
+                    "`{name}` is drawn from the record of one run; give its .h5 file instead of {}",
                     dir.display()
                 )));
             }
             return Err(Failure::refused(format_args!(
-                "there is no figure `{name}`; `phase plot --list` names them all"
+                "there is no figure `{name}`; `phase plot --list` lists all figures"
             )));
         }
         let points = arguments.points.iter().map(|point| parse_point(point));
-        let points: Vec<Selection> = points.collect::<Result<_, _>>().map_err(Failure::refused)?;
-        let found = Folder::find(dir).map_err(Failure::refused)?;
+        let points: Vec<Selection> = points.collect::<Result<_, _>>()?;
+        let found = Folder::find(dir)?;
         let several = found.len() > 1;
         self.folders = folders::go_through(dir, found, console, |folder| {
             let place = match (&arguments.out, folder.root().file_name()) {
@@ -243,7 +222,7 @@ impl Answer {
                 (Some(out), Some(name)) if several => out.join(name),
                 (Some(out), _) => out.clone(),
             };
-            let chosen = (&points[..], arguments.times);
+            let chosen = (&points[..], arguments.measured.window.times);
             let fits = &mut self.fits;
             Ok(FolderAnswer::of(
                 folder,
@@ -271,7 +250,7 @@ impl Listed {
         ));
         if let Some(runs) = self.default_runs {
             console.result(format_args!(
-                "{:<22} of the runs at --point, or else {runs}",
+                "{:<22} of the runs at --point; by default {runs}",
                 ""
             ));
         }
@@ -292,131 +271,4 @@ fn name_all(
     let reasons = failures.into_iter().map(|failure| failure.message);
     let reasons: Vec<String> = reasons.inspect(|reason| console.error(reason)).collect();
     first.map_or(Ok(reasons), Err)
-}
-
-/// What may be done where figures of another program are in the way.
-pub(super) const ANOTHER_FOLDER: &str = "choose another folder with --out";
-
-/// Draws what is drawn if nothing else is asked for. Gives the figures that could not be drawn, and
-/// why.
-pub(super) fn draw_default_figures(
-    folder: &Folder,
-    sweep: &Sweep,
-    table: &LabelTable,
-    console: &Console,
-) -> Vec<String> {
-    let names = default_figures(sweep, table, console).into_iter();
-    let draw = |name| {
-        draw(
-            name,
-            folder,
-            folder.root(),
-            (sweep, table),
-            (&[], None),
-            console,
-        )
-    };
-    let problems = names.filter_map(|name| Some(draw(name).err()?.message));
-    problems.inspect(|problem| console.error(problem)).collect()
-}
-
-/// The figures that are drawn if none are asked for.
-fn default_figures(sweep: &Sweep, table: &LabelTable, console: &Console) -> Vec<&'static str> {
-    if sweep.axes.is_empty() {
-        console.note("a sweep without axes has no diagram: no figures");
-        return Vec::new();
-    }
-    figures_of_sweep(sweep, table.family)
-}
-
-/// The figures that a sweep with axes draws.
-pub(super) fn figures_of_sweep(sweep: &Sweep, family: &'static Family) -> Vec<&'static str> {
-    let refined = sweep.refine.iter().map(|_| REFINED);
-    refined
-        .chain(family.default_figures.iter().copied())
-        .collect()
-}
-
-/// Draws the figure of a refined sweep after a round, without a word.
-pub(super) fn draw_round(
-    folder: &Folder,
-    sweep: &Sweep,
-    table: &LabelTable,
-) -> Result<(), Failure> {
-    let figure = drawn(REFINED, (folder, sweep, table), (&[], None))?;
-    for (extension, bytes) in images(&figure)? {
-        let path = folder.root().join(format!("{REFINED}.{extension}"));
-        store::write_atomic(&path, &bytes).map_err(Failure::failed)?;
-    }
-    Ok(())
-}
-
-/// Draws a figure, of points and times if they are asked for, writes it to the folder `place` as
-/// SVG and PNG and prints their paths.
-fn draw(
-    name: &str,
-    folder: &Folder,
-    place: &Path,
-    (sweep, table): (&Sweep, &LabelTable),
-    (points, times): (&[Selection], Option<[f64; 2]>),
-    console: &Console,
-) -> Result<(), Failure> {
-    let figure = drawn(name, (folder, sweep, table), (points, times))?;
-    let file = |extension: &str| place.join(format!("{name}.{extension}"));
-    write(&figure, file, console)
-}
-
-/// A figure of a folder, of points and times if they are asked for.
-fn drawn(
-    name: &str,
-    (folder, sweep, table): (&Folder, &Sweep, &LabelTable),
-    (points, times): (&[Selection], Option<[f64; 2]>),
-) -> Result<Svg, Failure> {
-    let refining = folder.read_refining(sweep).map_err(Failure::failed)?;
-    let source = plot::Source {
-        sweep,
-        refining: refining.as_ref(),
-        table,
-        record: &|id| folder.read_record(id),
-        points,
-        times,
-        captions: &[],
-        data: &[],
-        program: &Program::current(),
-    };
-    plot::draw(name, &source).map_err(|error| refused_or_failed(folder, error))
-}
-
-/// Why a figure of a folder is not drawn.
-fn refused_or_failed(folder: &Folder, error: PlotError) -> Failure {
-    let text = format!("{}: {error}", folder.root().display());
-    match error.is_of_request() {
-        true => Failure::refused(text),
-        false => Failure::failed(text),
-    }
-}
-
-/// The files of a figure, by the ends of their names.
-fn images(figure: &Svg) -> Result<[(&'static str, Vec<u8>); 2], Failure> {
-    Ok([
-        ("svg", figure.to_svg_bytes()),
-        ("png", figure.to_png_bytes().map_err(Failure::failed)?),
-    ])
-}
-
-/// Writes a figure as SVG and PNG and prints their paths, and what a reader of it would miss.
-pub(super) fn write(
-    figure: &Svg,
-    place: impl Fn(&str) -> PathBuf,
-    console: &Console,
-) -> Result<(), Failure> {
-    for (extension, bytes) in images(figure)? {
-        let path = place(extension);
-        store::write_atomic(&path, &bytes).map_err(Failure::failed)?;
-        console.file(&path);
-    }
-    for warning in figure.warnings() {
-        console.warning(format_args!("{}: {warning}", place("png").display()));
-    }
-    Ok(())
 }

@@ -15,6 +15,7 @@ use phase::record::{Milestone, MilestoneKind, Outcome, RunRecord};
 use phase::resume::{Checkpoints, DEFAULT_INTERVAL};
 use phase::run::{Edits, frame_of_state, model_of};
 use phase::scene::{Scene, Start};
+use phase::simulation::Instability;
 use phase::store::{self, Lock, StoreError};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -23,7 +24,7 @@ use std::time::Duration;
 
 /// Run one scene, or one job of a sweep again, and store its record.
 ///
-/// More output never changes the motion: a job that is run again gives the same bits as in the
+/// More output never changes the motion: a job that is run again must give the same bits as in the
 /// sweep, and the command says whether it did.
 #[derive(clap::Args)]
 #[command(after_help = "\
@@ -39,7 +40,7 @@ Example: one job of a sweep, this time with all spheres at every frame
 Example: a long run that was interrupted goes on
   phase run sweeps/scenes/silo.toml --resume
 
-A run that takes longer leaves a checkpoint beside the record to be, NAME.checkpoint beside NAME.h5,
+A long run leaves a checkpoint beside the record to be, NAME.checkpoint beside NAME.h5,
 every two minutes and when it is interrupted. What goes on from it gives the same bits as a run that
 was not interrupted. Only the same build of phase, with the same scene and output, can go on from
 it.")]
@@ -47,26 +48,24 @@ pub(crate) struct Arguments {
     /// The scene file (TOML).
     #[arg(required_unless_present = "from")]
     scene: Option<PathBuf>,
-    /// Run a job of the sweep in this results folder again, in place of a scene file.
+    /// Run a job of the sweep in this results folder again, instead of a scene file.
     #[arg(long, value_name = "DIR", conflicts_with = "scene")]
     from: Option<PathBuf>,
-    /// Which job: a value for every axis of the sweep and, if it has several seeds, `seed=N` (else
-    /// the first one is taken).
+    /// Which job: a value for every axis of the sweep and optionally `seed=N` [default: the first
+    /// seed].
     #[arg(long, value_name = "NAME=VALUE,...", requires = "from")]
     point: Option<String>,
-    /// The record to write, an HDF5 file; one of that name is replaced [default: results/NAME.h5,
-    /// the scene file's name without .toml; of a job DIR/runs/POINT.h5].
+    /// The record to write (HDF5), replacing an earlier one [default: results/NAME.h5 for a scene
+    /// file NAME.toml, DIR/runs/POINT.h5 for a job].
     #[arg(short, long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// Seed in place of the scene's.
+    /// Seed to use instead of the scene's.
     #[arg(short, long, conflicts_with = "from", value_parser = values::seed)]
     seed: Option<u64>,
-    /// A key of the scene with another value, such as `spot.walk.bias=3`; may be given several
-    /// times.
+    /// Set a key of the scene, such as `spot.walk.bias=3`; may be given several times.
     #[arg(long, value_name = "KEY=VALUE", conflicts_with = "from", value_parser = values::setting)]
     set: Vec<String>,
-    /// A table or key to leave out of the scene, such as `spot.weighting`; may be given several
-    /// times.
+    /// Remove a table or key from the scene, such as `spot.weighting`; may be given several times.
     #[arg(long, value_name = "KEY", conflicts_with = "from")]
     without: Vec<String>,
     /// Store position, velocity and spin of every sphere at every frame.
@@ -76,23 +75,19 @@ pub(crate) struct Arguments {
     /// residual (the integrator's error). Slower; never changes the motion.
     #[arg(short, long)]
     ledger: bool,
-    /// Time between snapshots of all spheres (s); 0 for none but the last.
+    /// Time between snapshots of all spheres (s); 0 for the last state only.
     #[arg(long, value_name = "SECONDS")]
     snapshot_interval: Option<f64>,
-    /// Go on from the checkpoint that an interrupted run of this record left; without one start
-    /// from the beginning.
+    /// Continue from the checkpoint of an interrupted run of this record, if there is one.
     #[arg(short, long)]
     resume: bool,
-    /// Time between two checkpoints (s); 0 for one at every frame [default: 120].
+    /// Time between two checkpoints (s); 0 for a checkpoint at every frame [default: 120].
     #[arg(long, value_name = "SECONDS", value_parser = values::seconds)]
     checkpoint_interval: Option<Duration>,
-    /// Threads for the one simulation. Pays from 4096 spheres on; fewer
-    /// stay on one. The bits do not depend on it.
+    /// Threads for the simulation; smaller runs than 4096 spheres stay on one. The bits do not
+    /// depend on it.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = values::threads)]
     threads: usize,
-    /// Print the result as one JSON object (docs/json.md) instead of text.
-    #[arg(long)]
-    pub(super) json: bool,
 }
 
 impl Arguments {
@@ -117,8 +112,8 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     // The parser asks for --from beside --point only where no scene file is given.
     if arguments.point.is_some() && arguments.from.is_none() {
         return Err(Failure::refused(
-            "--point is a job of a sweep: give the sweep's results folder with --from in place of \
-             a scene file",
+            "--point selects a job of a sweep: give the sweep's results folder with --from instead \
+             of a scene file",
         ));
     }
     let (mut scene, default_path, original) = match (&arguments.scene, &arguments.from) {
@@ -129,7 +124,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
                 options: &arguments.own_keys(),
             };
             let scene = Scene::load_with(file, edits);
-            let mut scene = scene.map_err(Failure::refused)?;
+            let mut scene = scene?;
             scene.seed = arguments.seed.unwrap_or(scene.seed);
             (scene, default_record(file), None)
         }
@@ -184,10 +179,10 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     console.result(summary(&record, seconds));
     console.file(&path);
     if let Some(table) = &table {
-        store::write_observations(&record, table).map_err(Failure::failed)?;
+        store::write_observations(&record, table)?;
         console.file(table);
     }
-    checkpoints.remove().map_err(Failure::failed)?;
+    checkpoints.remove()?;
     let same_bits = match &original {
         Some(original) => original.compare(&record, console)?,
         None => None,
@@ -208,7 +203,7 @@ fn lock(record: &Path) -> Result<Lock, Failure> {
     })?;
     lock.ok_or_else(|| {
         Failure::refused(format_args!(
-            "{file}: another `phase run` is making this record; wait until it ends, or choose \
+            "{file}: another `phase run` is writing this record; wait until it ends, or choose \
              another name with --out"
         ))
     })
@@ -230,13 +225,13 @@ fn write(
     written.map_err(|error| {
         let left = match store::read_checkpoint(checkpoints.path(), &record.scene) {
             Ok(Some(checkpoint)) => format!(
-                "the checkpoint of frame {} of {} stays: the same command with --resume goes on \
-                 from there ({})",
+                "the checkpoint of frame {} of {} is kept: the same command with --resume \
+                 continues from there ({})",
                 frame_of_state(checkpoint.state()).unwrap_or_default(),
                 record.scene.time.frames(),
                 checkpoints.path().display()
             ),
-            _ => "the run had left no checkpoint yet, and must be made again".to_owned(),
+            _ => "there is no checkpoint yet, so the run must start again".to_owned(),
         };
         Failure::failed(format_args!("{error}; {left}"))
     })
@@ -284,7 +279,7 @@ struct Answer<'a> {
     seed: u64,
     outcome: &'static str,
     /// What ended an unstable run.
-    instability: Option<Broken>,
+    instability: Option<&'a Instability>,
     seconds: f64,
     cpu_seconds: f64,
     sphere_steps: u64,
@@ -295,7 +290,7 @@ struct Answer<'a> {
     limit: Option<&'static str>,
     /// What happened once, and when (s), where spheres come or go.
     milestones: Vec<Milestone>,
-    /// What was to happen and did not.
+    /// What should have happened and did not.
     unmet: Vec<String>,
     /// Time (s) and every scalar observable of the last frame, in the units of the record.
     last_frame: BTreeMap<&'a str, f64>,
@@ -303,16 +298,6 @@ struct Answer<'a> {
     resumed_from: Option<f64>,
     /// Whether a job that was run again gave the bits of the sweep's record; none without one.
     same_bits: Option<bool>,
-}
-
-/// The guard that ended a run.
-#[derive(Serialize)]
-struct Broken {
-    guard: &'static str,
-    step: u64,
-    time: f64,
-    sphere: usize,
-    detail: String,
 }
 
 impl<'a> Answer<'a> {
@@ -333,13 +318,7 @@ impl<'a> Answer<'a> {
             record: path,
             seed: record.scene.seed,
             outcome,
-            instability: instability.map(|instability| Broken {
-                guard: instability.guard.name(),
-                step: instability.step,
-                time: instability.time,
-                sphere: instability.sphere,
-                detail: instability.detail.clone(),
-            }),
+            instability,
             seconds,
             cpu_seconds: record.cpu_seconds,
             sphere_steps: record.work,
@@ -356,7 +335,7 @@ impl<'a> Answer<'a> {
     }
 }
 
-/// What a run was to do and did not.
+/// What a run should have done and did not.
 fn unmet(record: &RunRecord) -> Vec<String> {
     let scene = &record.scene;
     let happened = |kind| record.milestones.iter().any(|it| it.kind == kind);
@@ -365,8 +344,8 @@ fn unmet(record: &RunRecord) -> Vec<String> {
     let mut unmet = Vec::new();
     if matches!(scene.start, Start::Feed { .. }) && !happened(MilestoneKind::Filled) {
         unmet.push(format!(
-            "NOT FILLED: {} of {all} spheres entered; for the others the inlet was blocked, or \
-             the run ended first",
+            "NOT FILLED: {} of {all} spheres entered; the inlet was blocked, or the run ended too \
+             early",
             last(&observations.released)
         ));
     }
@@ -385,8 +364,7 @@ fn unmet(record: &RunRecord) -> Vec<String> {
     let spilled = last(&observations.spilled);
     if spilled > 0.0 {
         unmet.push(format!(
-            "SPILLED: {spilled} spheres left before the door opened, over the rim or beside the \
-             silo"
+            "SPILLED: {spilled} spheres left before the door opened, over the rim or past the silo"
         ));
     }
     unmet

@@ -4,7 +4,7 @@ use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::folders::{self, Entry};
 use crate::cli::job::{self, NamedJob};
-use crate::cli::values;
+use crate::cli::options::Workers;
 use crate::cli::{format, refined};
 use phase::grid::{Axis, describe};
 use phase::refine::Finish;
@@ -14,8 +14,8 @@ use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-/// Say how far a sweep is: jobs done, failed and left, how far runs with a checkpoint are, and the
-/// time left.
+/// Show the progress of a sweep: jobs done, failed and left, runs with a checkpoint, and the time
+/// left.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Example: all sweeps in ./results
@@ -23,17 +23,13 @@ Example: all sweeps in ./results
 pub(crate) struct Arguments {
     /// A results folder of `phase sweep`, or a folder that holds several.
     dir: PathBuf,
-    /// Simulations at the same time, to tell the time left [default: all cores].
-    #[arg(short, long, value_name = "N", value_parser = values::at_least_one)]
-    jobs: Option<usize>,
-    /// Print the result as one JSON object (docs/json.md) instead of text.
-    #[arg(long)]
-    pub(super) json: bool,
+    #[command(flatten)]
+    workers: Workers,
 }
 
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
-    let workers = arguments.jobs.unwrap_or_else(work::default_workers);
-    let found = Folder::find(&arguments.dir).map_err(Failure::refused)?;
+    let workers = arguments.workers.count();
+    let found = Folder::find(&arguments.dir)?;
     let folders = folders::go_through(&arguments.dir, found, console, |folder| {
         Ok(FolderAnswer::of(folder, workers, console)?)
     })?;
@@ -43,15 +39,13 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
 }
 
 impl FolderAnswer {
-    /// That of a folder; prints it for people.
+    /// Reads the progress of a folder and prints it.
     fn of(folder: &Folder, workers: usize, console: &Console) -> Result<Self, Failure> {
-        let sweep = folder.read_sweep().map_err(Failure::failed)?;
-        let refining = folder.read_refining(&sweep).map_err(Failure::failed)?;
-        let jobs = sweep
-            .jobs_so_far(refining.as_ref())
-            .map_err(Failure::failed)?;
-        let plan = Plan::new(folder, jobs, work::default_workers()).map_err(Failure::failed)?;
-        let status = Status::of(folder, &sweep.axes, &plan).map_err(Failure::failed)?;
+        let sweep = folder.read_sweep()?;
+        let refining = folder.read_refining(&sweep)?;
+        let jobs = sweep.jobs_so_far(refining.as_ref())?;
+        let plan = Plan::new(folder, jobs, work::default_workers())?;
+        let status = Status::of(folder, &sweep.axes, &plan)?;
         console.result(format_args!(
             "{}: {}",
             folder.root().display(),
@@ -110,7 +104,7 @@ fn describe_refined(
     if let Some(seconds) = status.cpu_seconds_per_job.filter(|_| more > 0) {
         let workers = workers.min(more);
         lines.push(format!(
-            "  budget     about {} with {}, if all of it is spent",
+            "  budget     about {} with {}, if it is used up",
             format::duration(seconds * more as f64 / workers as f64),
             format::count(workers, "worker")
         ));
@@ -194,11 +188,11 @@ fn text(status: &Status, axes: &[Axis], workers: usize) -> String {
         failures.len()
     );
     if *unstable > 0 {
-        text += &format!("\n  unstable   {unstable} of those done");
+        text += &format!("\n  unstable   {unstable} of the done jobs");
     }
     if *bad > 0 {
         text += &format!(
-            "\n  to redo    {}, damaged or of other settings",
+            "\n  to redo    {}, damaged or made with other settings",
             format::count(*bad, "record")
         );
     }
@@ -209,7 +203,7 @@ fn text(status: &Status, axes: &[Axis], workers: usize) -> String {
                 format::duration(seconds),
                 format::count(workers.min(*left), "worker")
             ),
-            None => "not known before a job is done; `phase check` forecasts it".to_owned(),
+            None => "unknown until a job is done; `phase check` forecasts it".to_owned(),
         };
         text += &format!("\n  time left  {time}");
     }

@@ -5,10 +5,10 @@ mod accuracy;
 mod runs;
 mod stability;
 
-use super::plot;
 use crate::cli::builds;
 use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
+use crate::cli::figures;
 use phase::plot::{PlotError, Svg};
 use phase::store::{self, StoreError};
 use phase::study::ablation::{AblationError, AblationOptions};
@@ -57,7 +57,7 @@ pub(crate) struct Arguments {
     #[arg(long)]
     no_pairs: bool,
     #[command(flatten)]
-    pub(super) options: Options,
+    options: Options,
 }
 
 fn three_or_more(text: &str) -> Result<usize, String> {
@@ -224,7 +224,7 @@ impl Arguments {
             }
             let path = |end: &str| place.file(&format!("{name}.{end}"));
             let figure = figure.map_err(Failure::failed);
-            let now = figure.and_then(|figure| plot::write(&figure, path, console));
+            let now = figure.and_then(|figure| figures::write(&figure, path, console));
             // One that cannot be drawn does not stop the others.
             written = written.and(now);
         }

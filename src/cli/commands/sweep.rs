@@ -3,18 +3,17 @@
 mod refining;
 mod rounds;
 
-use super::{classify, plot};
 use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::job::NamedJob;
+use crate::cli::options::Workers;
 use crate::cli::values;
+use crate::cli::{figures, labels};
 use crate::cli::{folders, format, interrupt, overlaps, refined, time_step};
 use phase::classify::Family;
 use phase::resume::DEFAULT_INTERVAL;
 use phase::store;
-use phase::sweep::{
-    Access, Folder, FolderError, Job, Plan, Sweep, differing_keys, refuse_to_lose_labels, work,
-};
+use phase::sweep::{Access, Folder, Job, Plan, Sweep, differing_keys, refuse_to_lose_labels};
 use rounds::{Rounds, Run};
 use serde::Serialize;
 use std::collections::HashSet;
@@ -25,7 +24,7 @@ use std::time::Duration;
 /// Run the simulations of a sweep, label them, draw the phase diagram.
 ///
 /// Jobs whose record is already in the results folder are not run again: a sweep that was stopped
-/// goes on where it was, and long runs that were under way from their latest checkpoint.
+/// continues where it was, and long runs from their latest checkpoint.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Example: the 9 x 9 grid on four cores, results in ./results/quick
@@ -41,71 +40,65 @@ pub(crate) struct Arguments {
     /// The results folder [default: results/NAME, the sweep file's name without .toml].
     #[arg(short, long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Simulations at the same time [default: all cores].
-    #[arg(short, long, value_name = "N", value_parser = values::at_least_one)]
-    jobs: Option<usize>,
+    #[command(flatten)]
+    workers: Workers,
     /// Run every job again, whatever the results folder holds.
     #[arg(short, long)]
     force: bool,
-    /// Seeds in place of the file's; may be given several times.
+    /// Seeds to use instead of the file's; may be given several times.
     #[arg(short, long, value_name = "SEED", value_delimiter = ',', value_parser = values::seed)]
     seed: Vec<u64>,
-    /// Run a coarse grid, then only what the labels need (docs/refine.md). The file's table
-    /// [refine] says how; without one a tenth of the grid's jobs is run at most.
+    /// Run a coarse grid, then only what the labels need (docs/refine.md). The table [refine] of
+    /// the file has the settings; without it at most a tenth of the grid's jobs is run.
     #[arg(long)]
     refine: bool,
-    /// Time between two checkpoints of a run (s), from which it goes on when the sweep is run again
-    /// [default: 120].
+    /// Time between two checkpoints of a run (s), from which it continues when the sweep is run
+    /// again [default: 120].
     #[arg(long, value_name = "SECONDS", value_parser = values::seconds)]
     checkpoint_interval: Option<Duration>,
     /// Only run the simulations: no labels, no figures.
     #[arg(long)]
     no_classify: bool,
-    /// Count runs that have a label in labels.csv as done, even if their records are gone, as of
-    /// published results.
+    /// Treat runs listed in labels.csv as done even without their record files (for example in
+    /// published results).
     #[arg(long, conflicts_with = "force")]
     keep_labels: bool,
     /// Draw no figures.
     #[arg(long)]
     no_plot: bool,
-    /// Print the result as one JSON object (docs/json.md) instead of text.
-    #[arg(long)]
-    pub(super) json: bool,
 }
 
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
-    let mut sweep = phase::sweep::load(&arguments.file).map_err(Failure::refused)?;
+    let mut sweep = phase::sweep::load(&arguments.file)?;
     choose_runs(&mut sweep, arguments)?;
-    let workers = arguments.jobs.unwrap_or_else(work::default_workers);
-    let jobs = sweep.jobs().map_err(Failure::refused)?;
+    let workers = arguments.workers.count();
+    let jobs = sweep.jobs()?;
     if !arguments.no_classify {
-        sweep.check_sieves(&jobs).map_err(classify::cannot_label)?;
+        sweep.check_sieves(&jobs).map_err(labels::cannot_label)?;
     }
     let folder = folder_of(&sweep, arguments)?;
     let stop = interrupt::stop_on_signal(console)?;
 
-    folder.create().map_err(Failure::failed)?;
+    folder.create()?;
     let access = enter(&folder, &sweep, arguments)?;
     refuse_another_file(&folder, &sweep, arguments)?;
     if !arguments.no_classify {
         let again = jobs_made_again(&folder, &sweep);
         let kept = jobs.iter().chain(&again).map(|job| job.id.as_str());
-        refuse_to_lose_labels(&folder, kept).map_err(classify::cannot_write)?;
+        refuse_to_lose_labels(&folder, kept)?;
     }
     tell_of_other_sweep(&folder, &sweep, console);
     time_step::tell_of_jobs(&jobs, &sweep.axes, console);
     overlaps::warn_of_jobs(&jobs, &sweep.axes, console);
     if !arguments.no_classify {
-        warn_of_windows(&sweep, &jobs, console);
+        labels::warn_of_windows(&sweep, &jobs, console);
     }
     if matches!(access, Access::Alone(_)) {
-        folder
-            .note_source(&arguments.file)
-            .map_err(Failure::failed)?;
+        folder.note_source(&arguments.file)?;
     }
     let _lock = match arguments.force {
         true => access,
-        false => Access::Shared(folder.open(access, &sweep).map_err(Failure::failed)?),
+        false => Access::Shared(folder.open(access, &sweep)?),
     };
     let rounds = Rounds {
         folder: &folder,
@@ -134,40 +127,35 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
 
     if stop.load(Ordering::Relaxed) {
         console.note(format_args!(
-            "interrupted; {} left. Go on with the same command",
+            "interrupted; {} left. The same command continues",
             format::count(run.report.left, "job")
         ));
         answer.interrupted = true;
-        console.answer(&answer);
+        console.answer_with_files(&answer);
         return Ok(Exit::Interrupted);
     }
     if let Some(error) = &run.report.halted {
-        console.answer(&answer);
+        console.answer_with_files(&answer);
         return Err(Failure::failed(error));
-    }
-    if leaves_rest_to_others(&folder, &plan, console) {
-        console.answer(&answer);
-        return Ok(Exit::Done);
     }
     let mut failed = !run.report.failures.is_empty();
     if !arguments.no_classify {
-        let labelled = classify::label_folder(&folder, &sweep, &jobs, workers, console);
-        let labelled = labelled.inspect_err(|_| console.answer(&answer))?;
+        let labelled = labels::label_folder(&folder, &sweep, &jobs, workers, console);
+        let labelled = labelled.inspect_err(|_| console.answer_with_files(&answer))?;
         failed |= !labelled.problems.is_empty();
         if !arguments.no_plot {
-            let problems = plot::draw_default_figures(&folder, &sweep, &labelled.table, console);
+            let problems = figures::draw_default_figures(&folder, &sweep, &labelled.table, console);
             failed |= !problems.is_empty();
             answer.problems = problems;
         }
         tell_of_earlier_borders(&folder, &sweep, console);
-        answer.labels = Some(classify::Summary::new(&folder, &labelled));
+        answer.labels = Some(labels::Summary::new(&folder, &labelled));
     }
-    answer.files = console.files();
-    console.answer(&answer);
+    console.answer_with_files(&answer);
     Ok(if failed { Exit::Failed } else { Exit::Done })
 }
 
-/// The results folder, in which no file of another program is in the way.
+/// The results folder. Refuses one where a file of another program is in the way.
 fn folder_of(sweep: &Sweep, arguments: &Arguments) -> Result<Folder, Failure> {
     let root = arguments.out.clone();
     let mut folder = Folder::new(root.unwrap_or_else(|| default_folder(&arguments.file)));
@@ -195,47 +183,31 @@ fn refuse_another_file(
         return Ok(());
     }
     Err(Failure::refused(format_args!(
-        "{}: this folder has the results of {}, another sweep of the same name; choose another \
+        "this folder holds the results of {}, another sweep of the same name; choose another \
          folder with --out",
-        folder.root().display(),
         source.display()
-    )))
+    ))
+    .at(folder.root()))
 }
 
-/// Says which files of the folder are not of this sweep.
+/// Says which files of the folder belong to an earlier sweep.
 fn tell_of_earlier_borders(folder: &Folder, sweep: &Sweep, console: &Console) {
     if sweep.refine.is_none() && folder.borders().exists() {
         console.note(format_args!(
-            "{} and `refined` are of an earlier, refined sweep in this folder",
+            "{} and the figure `refined` belong to an earlier, refined sweep in this folder",
             folder.borders().display()
         ));
     }
 }
 
-/// Whether other processes still make runs of the plan: then they write tables and figures.
-fn leaves_rest_to_others(folder: &Folder, plan: &Plan, console: &Console) -> bool {
-    let is_made = |job: &Job| folder.is_made_elsewhere(&job.id);
-    let others = plan.jobs.iter().filter(|(job, _)| is_made(job)).count();
-    if others > 0 {
-        console.note(format_args!(
-            "another process is making {}, and writes tables and figures when it is done",
-            format::count(others, "job")
-        ));
-    }
-    others > 0
-}
-
 /// Takes the right to run a sweep into a folder, beside other processes that run the same one
-/// unless everything is to be run again.
+/// unless everything is run again.
 fn enter(folder: &Folder, sweep: &Sweep, arguments: &Arguments) -> Result<Access, Failure> {
     let access = match arguments.force {
         true => folder.lock().map(Access::Alone),
         false => folder.enter(sweep),
     };
-    access.map_err(|error| match error {
-        FolderError::Locked(_) => Failure::refused(error),
-        _ => Failure::failed(error),
-    })
+    Ok(access?)
 }
 
 /// Refuses to keep labels that cannot be read, or that other thresholds gave.
@@ -245,19 +217,19 @@ fn check_kept_labels(folder: &Folder, sweep: &Sweep) -> Result<(), Failure> {
     }
     store::read_labels(&folder.labels()).map_err(|error| {
         Failure::refused(format_args!(
-            "{error}\nlabels are to be kept, and this table of them cannot be read: mend it, or \
-             leave out --keep-labels"
+            "{error}\n--keep-labels needs a readable labels.csv; repair the file or drop \
+             --keep-labels"
         ))
     })?;
-    let stored = folder.read_sweep().map_err(Failure::refused)?;
+    let stored = folder.read_sweep()?;
     match stored.sieves == sweep.sieves {
         true => Ok(()),
         false => Err(Failure::refused(format_args!(
-            "{}: other thresholds ([sieves]) gave these labels, which cannot be kept; leave out \
-             --keep-labels, or use the thresholds of {}",
-            folder.labels().display(),
+            "these labels were made with other thresholds ([sieves]); drop --keep-labels, or use \
+             the thresholds of {}",
             folder.sweep().display()
-        ))),
+        ))
+        .at(folder.labels())),
     }
 }
 
@@ -266,7 +238,7 @@ fn check_kept_labels(folder: &Folder, sweep: &Sweep) -> Result<(), Failure> {
 fn refuse_foreign(folder: &Folder, sweep: &Sweep, arguments: &Arguments) -> Result<(), Failure> {
     let root = folder.root();
     if folder.sweep().exists() {
-        return folders::refuse_foreign(root, ["sweep.json"], plot::ANOTHER_FOLDER);
+        return folders::refuse_foreign(root, ["sweep.json"], folders::ANOTHER_FOLDER);
     }
     let mut names = vec![PathBuf::from("failed.csv")];
     if !arguments.no_classify {
@@ -277,11 +249,11 @@ fn refuse_foreign(folder: &Folder, sweep: &Sweep, arguments: &Arguments) -> Resu
             .flat_map(|_| ["refined.csv", "borders.csv"]);
         names.extend(refined.map(PathBuf::from));
         if !arguments.no_plot && !sweep.axes.is_empty() {
-            let figures = plot::figures_of_sweep(sweep, Family::of(&sweep.scene));
+            let figures = figures::figures_of_sweep(sweep, Family::of(&sweep.scene));
             names.extend(folders::files_of_figures(figures));
         }
     }
-    folders::refuse_foreign(root, names, plot::ANOTHER_FOLDER)
+    folders::refuse_foreign(root, names, folders::ANOTHER_FOLDER)
 }
 
 /// The jobs of the sweep that the folder keeps, if this one makes the same, and those that a
@@ -316,38 +288,19 @@ fn choose_runs(sweep: &mut Sweep, arguments: &Arguments) -> Result<(), Failure> 
     }
     if arguments.no_classify && sweep.refine.is_some() {
         return Err(Failure::refused(
-            "refining needs labels; leave out --no-classify",
+            "refining needs labels; drop --no-classify",
         ));
     }
     Ok(())
 }
 
-/// Warns of sieves that find nothing in some runs, or in all, as these are too short.
-pub(super) fn warn_of_windows(sweep: &Sweep, jobs: &[Job], console: &Console) {
-    for sieve in sweep.sieves_without_room(jobs) {
-        let (name, window, longest) = (sieve.sieve, sieve.window, sieve.longest);
-        let which = match sieve.runs == jobs.len() {
-            true => format!("the runs, {longest} s: it finds nothing in any of them"),
-            false => format!(
-                "{} of {}, which last {longest} s at most: it finds nothing in these",
-                sieve.runs,
-                format::count(jobs.len(), "run")
-            ),
-        };
-        console.warning(format_args!(
-            "the window of the sieve {name}, {window} s, is longer than {which}; lengthen \
-             time.duration, or shorten `window` in [sieves.{name}]"
-        ));
-    }
-}
-
-/// Seeds, each of which is there once.
+/// Seeds without duplicates.
 fn distinct(seeds: &[u64]) -> Result<Vec<u64>, Failure> {
     let mut seen = HashSet::new();
     match seeds.iter().find(|seed| !seen.insert(**seed)) {
         None => Ok(seeds.to_vec()),
         Some(seed) => Err(Failure::refused(format_args!(
-            "--seed {seed} is there twice, and would count its runs twice; give it once"
+            "duplicate --seed {seed}: its runs would count twice; give it once"
         ))),
     }
 }
@@ -357,7 +310,7 @@ pub(super) fn default_folder(file: &Path) -> PathBuf {
     Path::new("results").join(file.file_stem().unwrap_or("sweep".as_ref()))
 }
 
-/// Says in what an earlier sweep of the same folder differed.
+/// Says how an earlier sweep of the same folder differed.
 fn tell_of_other_sweep(folder: &Folder, sweep: &Sweep, console: &Console) {
     let Ok(earlier) = folder.read_sweep() else {
         return;
@@ -365,8 +318,8 @@ fn tell_of_other_sweep(folder: &Folder, sweep: &Sweep, console: &Console) {
     let keys = differing_keys(&earlier, sweep);
     if !keys.is_empty() {
         console.note(format_args!(
-            "the sweep has changed since it was last run into {} ({}); records it still needs are \
-             kept, others stay in the folder unused",
+            "the sweep has changed since it was last run into {} ({}); its records are reused \
+             where they still apply, others stay in the folder unused",
             folder.root().display(),
             keys.join(", ")
         ));
@@ -389,13 +342,11 @@ struct Answer {
     seconds: f64,
     cpu_seconds: f64,
     sphere_steps: u64,
-    labels: Option<classify::Summary>,
+    labels: Option<labels::Summary>,
     /// How well borders are known; none if the whole grid is run.
     refined: Option<refined::Answer>,
     /// Figures that could not be drawn, and why.
     problems: Vec<String>,
-    /// The files written, but for the records.
-    files: Vec<String>,
 }
 
 impl Answer {
@@ -417,7 +368,6 @@ impl Answer {
             labels: None,
             refined: None,
             problems: Vec::new(),
-            files: Vec::new(),
         }
     }
 }

@@ -1,10 +1,10 @@
 //! `phase verify`: runs the verification cases and says how far each is from its number.
 
-use super::plot;
-use super::plot::ANOTHER_FOLDER;
 use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
-use crate::cli::values;
+use crate::cli::figures;
+use crate::cli::folders::ANOTHER_FOLDER;
+use crate::cli::options::Workers;
 use crate::cli::{folders, format};
 use phase::plot::verification::{self, CaseError};
 use phase::record::Program;
@@ -17,8 +17,8 @@ use std::path::{Path, PathBuf};
 
 /// Run the verification cases: set-ups whose outcome is known in closed form or from a reference.
 ///
-/// Every case runs with every integrator that claims it; what was expected, what was got, the error
-/// over the tolerance and the cost are printed. Fails if any case does.
+/// Runs every case with every integrator that claims it, and prints the expected and the measured
+/// value, the error over the tolerance and the cost. Fails if any case does.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Example: all impacts, as a table and a figure
@@ -30,18 +30,14 @@ pub(crate) struct Arguments {
     /// Only cases whose name contains this.
     #[arg(short, long, value_name = "TEXT")]
     case: Option<String>,
-    /// Print names and sources of the cases, and run none.
+    /// List the cases with their sources; run nothing.
     #[arg(short, long)]
     list: bool,
     /// Folder for the table (CSV) and the figure (SVG, PNG) [default: print only].
     #[arg(short, long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Cases at the same time [default: all cores].
-    #[arg(short, long, value_name = "N", value_parser = values::at_least_one)]
-    jobs: Option<usize>,
-    /// Print the result as one JSON object (docs/json.md) instead of text.
-    #[arg(long)]
-    pub(super) json: bool,
+    #[command(flatten)]
+    workers: Workers,
 }
 
 /// A quantity of a case with one integrator.
@@ -51,7 +47,7 @@ struct Row {
     case: &'static str,
     integrator: &'static str,
     quantity: String,
-    /// What it is to be, and what was measured (SI units).
+    /// Expected and measured value (SI units).
     expected: f64,
     measured: f64,
     /// Error, relative or absolute as the case says, and how large it may be.
@@ -79,11 +75,11 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         .iter()
         .flat_map(|case| case.integrators.iter().map(move |&it| (*case, it)))
         .collect();
-    let workers = arguments.jobs.unwrap_or_else(work::default_workers);
+    let workers = arguments.workers.count();
     let outcomes = work::map(workers, &runs, |(case, integrator)| {
         verify::run(case, *integrator)
     });
-    let outcomes = outcomes.map_err(Failure::failed)?;
+    let outcomes = outcomes?;
     let (mut rows, mut errors, mut failed) = (Vec::new(), Vec::new(), 0);
     for ((case, integrator), outcome) in runs.iter().zip(&outcomes) {
         console.result(line(case, *integrator, outcome));
@@ -104,11 +100,10 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     if let Some(folder) = &arguments.out {
         write(&rows, &errors, folder, console)?;
     }
-    console.answer(&Answer {
+    console.answer_with_files(&Answer {
         runs: runs.len(),
         failed,
         checks: rows,
-        files: console.files(),
     });
     Ok(if failed == 0 {
         Exit::Done
@@ -123,7 +118,6 @@ struct Answer {
     runs: usize,
     failed: usize,
     checks: Vec<Row>,
-    files: Vec<String>,
 }
 
 /// What `--list --json` prints.
@@ -163,7 +157,7 @@ fn chosen(arguments: &Arguments) -> Result<Vec<&'static Case>, Failure> {
     let cases: Vec<&Case> = verify::cases().iter().filter(is_chosen).collect();
     if cases.is_empty() {
         return Err(Failure::refused(
-            "no case has such a name; `phase verify --list` names them all",
+            "no case has such a name; `phase verify --list` lists all cases",
         ));
     }
     Ok(cases)
@@ -253,8 +247,8 @@ fn write(
     console: &Console,
 ) -> Result<(), Failure> {
     let place = |end: &str| folder.join(format!("verification.{end}"));
-    store::write_rows(rows, &place("csv")).map_err(Failure::failed)?;
+    store::write_rows(rows, &place("csv"))?;
     console.file(&place("csv"));
-    let figure = verification::draw(errors, &Program::current()).map_err(Failure::failed)?;
-    plot::write(&figure, place, console)
+    let figure = verification::draw(errors, &Program::current())?;
+    figures::write(&figure, place, console)
 }

@@ -17,21 +17,22 @@ use phase::record::RunRecord;
 use phase::render::lacking_letters;
 use phase::scene::Tank;
 use phase::store;
+use serde::Serialize;
 use sheets::{Run, Sheets};
 use std::path::{Path, PathBuf};
 use target::Target;
 
-/// Draw the spheres of a run: side view and view from above; of discs one flat view.
+/// Draw the spheres of a run from the side and from above; discs in one flat view.
 ///
-/// Takes the trajectory if the record has one, else its snapshots, and says which times it shows.
-/// Several records are drawn beside each other, to one scale.
+/// Uses the trajectory if the record has one, otherwise its snapshots, and says which times it
+/// shows. Several records are drawn side by side, to one scale.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Example: the run at five times, then at two of one's own
   phase view spout.h5
   phase view spout.h5 --time 1.5,5 --out late.png
 
-Example: two silos at rest beside each other
+Example: two silos at rest side by side
   phase view silo.h5 silo-mixture.h5 --time at-rest --color radius --out silos.png
 
 Example: layers of a drainage in a cut through the middle, and what is near the orifice
@@ -53,15 +54,15 @@ pub(crate) struct Arguments {
     /// The record (HDF5); or several.
     #[arg(required = true, value_name = "RECORD")]
     records: Vec<PathBuf>,
-    /// What the picture calls a record, in place of its title and place in a sweep; once for each
-    /// record, in their order.
+    /// Caption of a record instead of its title and place in a sweep; once for each record, in
+    /// their order.
     #[arg(long = "label", value_name = "TEXT")]
     labels: Vec<String>,
     /// Frames to show, counted from 0 at the start.
     #[arg(long, value_name = "N", value_delimiter = ',', conflicts_with = "time")]
     frame: Vec<u64>,
-    /// Times to show (s), of which the nearest state is taken; or, of a silo, `filled`, `at-rest`,
-    /// `door-opened`, `emptied` or `steady`, which take the first state since then.
+    /// Times to show (s): the nearest state of each. For a silo also `filled`, `at-rest`,
+    /// `door-opened`, `emptied` or `steady`: the first state from then on.
     #[arg(
         long,
         value_name = "T",
@@ -69,8 +70,8 @@ pub(crate) struct Arguments {
         allow_negative_numbers = true
     )]
     time: Vec<Moment>,
-    /// Count times, those in the picture too, from when the opening of a silo or box is open: from
-    /// when its door opened, if it has one.
+    /// Count times, in the picture too, from the opening of a silo or box (of its door, if it has
+    /// one).
     #[arg(long, conflicts_with_all = ["frame", "animate"])]
     since_opening: bool,
     /// The picture to write (PNG) [default: the record's name with .png].
@@ -79,17 +80,17 @@ pub(crate) struct Arguments {
     /// Write an animation of the whole run: .png (APNG) or .gif.
     #[arg(short, long, value_name = "FILE", conflicts_with_all = ["frame", "time", "each"])]
     animate: Option<PathBuf>,
-    /// Write a picture of every state (or of those asked for) into this folder: frame_00000.png and
+    /// Write a picture of every state (or of the chosen ones) to this folder: frame_00000.png and
     /// so on.
     #[arg(long, value_name = "FOLDER")]
     each: Option<PathBuf>,
-    /// What the colours stand for.
+    /// What the colours show.
     #[arg(long, value_name = "WHAT", default_value = "speed")]
     color: Color,
     /// Show a cut through the middle, from the side: only spheres behind the axis.
     #[arg(long)]
     cut: bool,
-    /// What is seen, from the side (m): least and largest x, least and largest z.
+    /// The region to show, from the side (m): least and largest x, least and largest z.
     #[arg(long, value_name = "X,X,Z,Z", value_delimiter = ',', num_args = 1,
           allow_hyphen_values = true, value_parser = values::number)]
     window: Vec<f64>,
@@ -100,12 +101,9 @@ pub(crate) struct Arguments {
     /// Write the picture in 256 colours: a smaller file. Animations always are.
     #[arg(long, conflicts_with_all = ["animate", "each"])]
     palette: bool,
-    /// Print the files written as one JSON object (docs/json.md) instead of text.
-    #[arg(long)]
-    pub(super) json: bool,
 }
 
-/// What the colours of the spheres stand for.
+/// What the colours of the spheres show.
 #[derive(Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 enum Color {
     /// Speed, from rest to the highest that is shown.
@@ -114,15 +112,19 @@ enum Color {
     Height,
     /// Radius, from the least to the largest.
     Radius,
-    /// The sphere: neighbours in the list differ.
+    /// The index of the sphere: neighbours in the list differ.
     Index,
-    /// The layer in which a sphere started, of ten diameters each: two colours by turns.
+    /// The layer in which a sphere started (ten diameters each), in two alternating colours.
     Layer,
     /// Packing fraction, of Voronoi cells.
     PackingFraction,
     /// Nothing; grains of a silo are blue.
     None,
 }
+
+/// What `--json` prints, apart from the picture's file.
+#[derive(Serialize)]
+struct Answer {}
 
 /// Panels if no times are asked for.
 const PANELS: usize = 5;
@@ -133,7 +135,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     let one_by_one = arguments.animate.is_some() || arguments.each.is_some();
     if one_by_one && arguments.records.len() > 1 {
         return Err(Failure::refused(
-            "--animate and --each take one record: give them one by one",
+            "--animate and --each take a single record",
         ));
     }
     check_labels(&arguments.labels, arguments.records.len(), false)?;
@@ -158,17 +160,20 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
                 None => strip(&runs, arguments, console)?,
             };
             folders::make_for(&target.path)?;
-            store::write_atomic(&target.path, &bytes).map_err(Failure::failed)?;
+            store::write_atomic(&target.path, &bytes)?;
             console.file(&target.path);
         }
     }
-    console.answer_files();
+    console.answer_with_files(&Answer {});
     Ok(Exit::Done)
 }
 
 fn read(arguments: &Arguments) -> Result<Vec<RunRecord>, Failure> {
-    let read = |path| store::read_record(path).map_err(Failure::refused);
-    arguments.records.iter().map(|path| read(path)).collect()
+    let records = arguments
+        .records
+        .iter()
+        .map(|path| store::read_record(path));
+    Ok(records.collect::<Result<_, _>>()?)
 }
 
 /// What is shown of every record.
@@ -203,8 +208,8 @@ fn warn_of_letters(runs: &[Run<'_>], console: &Console) {
                 "the key `title`"
             };
             console.warning(format_args!(
-                "{key}, \"{name}\", has letters that the built-in font lacks: {}; the picture \
-                 shows boxes for them",
+                "{key}, \"{name}\", has letters that the built-in font lacks ({}); the picture \
+                 shows boxes instead",
                 letters.join(", ")
             ));
         }
@@ -221,10 +226,10 @@ fn run<'a>(
     let path = &arguments.records[number];
     let states = record.sound_states();
     if states.is_empty() {
-        return Err(Failure::failed(format_args!(
-            "{}: the record holds no state to draw; run it again with --snapshot-interval",
-            path.display()
-        )));
+        return Err(Failure::failed(
+            "the record holds no state to draw; run it again with --snapshot-interval",
+        )
+        .at(path));
     }
     console.note(format_args!(
         "{}: {}: {}",
@@ -267,14 +272,14 @@ fn origin(path: &Path, record: &RunRecord, arguments: &Arguments) -> Result<f64,
     let tank = record.scene.tank.as_ref();
     let has_opening = record.scene.dem.outlet.is_some() || tank.is_some_and(Tank::has_opening);
     opened(record).filter(|_| has_opening).ok_or_else(|| {
-        Failure::refused(format_args!(
-            "{}: --since-opening is for silos and boxes with an opening that opens within the run",
-            path.display()
-        ))
+        Failure::refused(
+            "--since-opening is for silos and boxes with an opening that opens within the run",
+        )
+        .at(path)
     })
 }
 
-/// The bytes of a picture of all panels beside each other.
+/// The bytes of a picture of all panels side by side.
 fn strip(runs: &[Run<'_>], arguments: &Arguments, console: &Console) -> Result<Vec<u8>, Failure> {
     let mut sheets = Sheets::new(runs, arguments)?;
     sheets.limit_height(console);
@@ -283,15 +288,14 @@ fn strip(runs: &[Run<'_>], arguments: &Arguments, console: &Console) -> Result<V
     let width = sheets.fitted(count, asked, HEIGHT);
     if width < asked {
         console.note(format_args!(
-            "panels are {width} instead of {asked} pixels wide: a picture is at most {HEIGHT} \
+            "panels are {width} pixels wide instead of {asked}: a picture is at most {HEIGHT} \
              pixels high"
         ));
     }
     let image = sheets.picture(&sheets.panels(width)?);
     let texts = words::texts(runs[0].record);
-    let file = match arguments.palette {
+    Ok(match arguments.palette {
         true => image.to_png_of_palette(&texts),
         false => image.to_png(&texts),
-    };
-    file.map_err(Failure::failed)
+    }?)
 }

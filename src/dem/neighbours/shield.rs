@@ -7,8 +7,7 @@ use fearless_simd::{Level, Simd, SimdBase, SimdMask, f64x8};
 
 /// For each sphere the number of spheres that shield it, updated for the undecided pairs: those in
 /// which shielding may change. Few of them change from one step to the next. So the bits of all
-/// undecided pairs are compared with those of the step before, and only the differences are
-/// counted.
+/// undecided pairs are compared with the previous step, and only the differences are counted.
 #[derive(Default)]
 pub(super) struct Shield {
     /// For each sphere the number of spheres that shield it.

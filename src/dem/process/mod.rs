@@ -267,7 +267,7 @@ impl Process {
             return;
         }
         if self.free.indices(particles).next().is_none() {
-            // A silo whose grains all fell beside it never held any.
+            // A silo never held grains if all of them fell outside.
             if self.door.is_none() {
                 self.note(step, MilestoneKind::Emptied);
             }

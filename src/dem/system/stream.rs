@@ -95,7 +95,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                 vec![Stream::new(spheres, all, &mut bodies[0], (None, None))]
             }
         };
-        // A profile measures the first thread. Its `StepPart::Rest` includes the wait for the others.
+        // A profile measures the first thread only. Its `StepPart::Rest` includes the wait for the
+        // others.
         streams[0].profile = self.profile.take();
         let level = self.level;
         in_parallel(&mut streams, &|stream| {

@@ -162,7 +162,7 @@ impl Contact {
         with_keys!(self, keys => keys.problems())
     }
 
-    /// The limits of the time step that follow from its collisions, without those of friction.
+    /// The limits of the time step that follow from its collisions, without friction.
     pub(crate) fn limits(&self, collisions: &[Collision], regime: &Regime<'_>) -> Vec<Limit> {
         with_keys!(self, keys => limits(keys, collisions, regime))
     }
@@ -191,9 +191,9 @@ fn limits<K: ContactKeys>(keys: &K, collisions: &[Collision], regime: &Regime<'_
             name: "twelve contacts",
             seconds: least(6.0_f64.sqrt(), 6.0),
             decisive: false,
-            explanation: "(w dt)^2 + 2 g dt < 4 of a sphere with twelve such contacts, all taken \
-                          to act along one line: w^2 and the damping rate g are 6 times those of \
-                          a pair",
+            explanation: "(w dt)^2 + 2 g dt < 4 of a sphere with twelve such contacts, all assumed \
+                          to act along one line: w^2 and the damping rate g are 6 times those of a \
+                          pair",
             consequence: Some("a sphere squeezed by many others may gain energy"),
         },
         regime.displacement(stiffest.speed),

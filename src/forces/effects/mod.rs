@@ -340,7 +340,7 @@ pub(crate) trait Effect: Send + Sync {
     /// from the updraught; empty in a scene without updraught.
     fn prepare(&mut self, shielding: &[u32]);
 
-    /// Adds its forces and torques to those of a block of spheres.
+    /// Adds its forces and torques to a block of spheres.
     fn apply(&self, level: Level, bodies: &mut Bodies);
 
     /// Which columns it reads.

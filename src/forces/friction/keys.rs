@@ -32,7 +32,7 @@ pub(crate) trait FrictionKeys<C> {
     /// The law for time steps of `dt` (s).
     fn law(&self, contact: &C, dt: f64) -> Self::Law;
 
-    /// Its limit of the time step, if it has one. `collisions` are those of the [contact
+    /// Its limit of the time step, if it has one. `collisions` come from the [contact
     /// law](ContactKeys::collisions).
     fn limit(
         &self,

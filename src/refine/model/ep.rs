@@ -78,8 +78,8 @@ impl Posterior {
         sums
     }
 
-    /// Latent variances at places with this prior variance (equation 3.61): `covariances` are
-    /// those of each run with all places. `buffer` is room to work in.
+    /// Latent variances at places with this prior variance (equation 3.61): `covariances` has the
+    /// covariances of each run with all places. `buffer` is working memory.
     pub(super) fn variances(
         &self,
         covariances: &[Lanes],

@@ -42,7 +42,7 @@ impl Kernel {
 
 /// A trial of the search for the best kernel: an amplitude and one length per axis.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Setting {
+pub(super) struct KernelSetting {
     amplitude: usize,
     lengths: Vec<usize>,
 }
@@ -53,7 +53,7 @@ const AMPLITUDES: [f64; 6] = [1.0, 1.6, 2.5, 4.0, 6.3, 10.0];
 /// Lengths on the unit cube.
 const LENGTHS: [f64; 8] = [0.06, 0.1, 0.16, 0.25, 0.4, 0.63, 1.0, 1.6];
 
-impl Setting {
+impl KernelSetting {
     /// Where searches start: an amplitude of 4, lengths of 0.4.
     pub(super) fn start(axes: usize) -> Self {
         Self {
@@ -89,10 +89,13 @@ impl Setting {
 
 /// The setting with the largest evidence that can be reached in steps from `start`, one number at a
 /// time. The evidence may depend on the setting and on earlier calls only.
-pub(super) fn ascend(start: Setting, mut evidence: impl FnMut(&Setting) -> f64) -> Setting {
+pub(super) fn ascend(
+    start: KernelSetting,
+    mut evidence: impl FnMut(&KernelSetting) -> f64,
+) -> KernelSetting {
     let numbers = start.lengths.len() + 1;
-    let mut known: Vec<(Setting, f64)> = Vec::new();
-    let mut value = |setting: &Setting| {
+    let mut known: Vec<(KernelSetting, f64)> = Vec::new();
+    let mut value = |setting: &KernelSetting| {
         if let Some((_, value)) = known.iter().find(|(other, _)| other == setting) {
             return *value;
         }

@@ -11,7 +11,7 @@ pub use regression::Regression;
 use super::observations::Training;
 
 /// A way to learn the probability of labels from runs.
-pub trait Model {
+pub trait LabelModel {
     /// Learns from runs. The same runs give the same bits on every machine.
     fn fit(&self, runs: &Training) -> Box<dyn Fitted>;
 }

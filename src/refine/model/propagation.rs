@@ -1,8 +1,8 @@
 //! Gaussian process classification by expectation propagation.
 
 use super::ep::{Posterior, Sites};
-use super::kernel::{Kernel, Setting, ascend};
-use super::{Fitted, Model, normalised};
+use super::kernel::{Kernel, KernelSetting, ascend};
+use super::{Fitted, LabelModel, normalised};
 use crate::refine::cholesky::{LANES, Lanes, Matrix};
 use crate::refine::normal;
 use crate::refine::observations::Training;
@@ -40,7 +40,7 @@ struct Classifier {
     temperature: f64,
 }
 
-impl Model for Propagation {
+impl LabelModel for Propagation {
     fn fit(&self, runs: &Training) -> Box<dyn Fitted> {
         let labels = 0..runs.codes().len();
         let signs: Vec<Vec<f64>> = labels
@@ -59,7 +59,7 @@ impl Model for Propagation {
             });
             labels.collect()
         };
-        let best = ascend(Setting::start(runs.axes()), |setting| {
+        let best = ascend(KernelSetting::start(runs.axes()), |setting| {
             let covariance = setting.kernel().matrix(runs);
             let labels = posteriors(&covariance, TOLERANCES[0]);
             labels.iter().map(|label| label.evidence).sum()

@@ -1,7 +1,7 @@
 //! Gaussian process regression of the labels.
 
-use super::kernel::{Kernel, Setting, ascend};
-use super::{Fitted, Model, normalised};
+use super::kernel::{Kernel, KernelSetting, ascend};
+use super::{Fitted, LabelModel, normalised};
 use crate::refine::cholesky::{Cholesky, dot};
 use crate::refine::normal;
 use crate::refine::observations::Training;
@@ -24,10 +24,10 @@ struct Regressed {
 /// Variances of the noise over the variance of the latent function.
 const NOISES: [f64; 4] = [0.001, 0.01, 0.05, 0.2];
 
-impl Model for Regression {
+impl LabelModel for Regression {
     fn fit(&self, runs: &Training) -> Box<dyn Fitted> {
         let fits = NOISES.iter().map(|noise| {
-            let best = ascend(Setting::start(runs.axes()), |setting| {
+            let best = ascend(KernelSetting::start(runs.axes()), |setting| {
                 fit(runs, setting, *noise).1
             });
             fit(runs, &best, *noise)
@@ -42,7 +42,7 @@ impl Model for Regression {
 
 /// The regression with this kernel, and the logarithm of the marginal likelihood (equation 2.30)
 /// at the amplitude that makes it largest.
-fn fit(runs: &Training, setting: &Setting, noise: f64) -> (Regressed, f64) {
+fn fit(runs: &Training, setting: &KernelSetting, noise: f64) -> (Regressed, f64) {
     let mut kernel = setting.kernel();
     kernel.variance = 1.0;
     let count = runs.runs();

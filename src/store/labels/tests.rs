@@ -233,7 +233,7 @@ fn any_row(family: &'static Family, axes: usize) -> impl Strategy<Value = LabelR
         "[0-9a-f]{16}",
         prop::collection::vec(finite(), axes),
         any::<u64>(),
-        prop::sample::select(family.labels),
+        prop::sample::select(family.labels()),
         prop::collection::vec(prop::option::of(finite()), family.measures().count()),
         any::<Option<bool>>(),
     )

@@ -2,8 +2,8 @@
 
 use crate::classify::Family;
 use crate::document::{Document, LoadError, Problem, number};
-use crate::grid::{PointScenes, SceneTree, check_change};
 use crate::grid::base_scene;
+use crate::grid::{PointScenes, SceneTree, check_change};
 use crate::run::{self, Reading};
 use crate::scene::{Change, FileKind, Friction, Scene, is_within};
 use crate::sweep::{self, Sweep};

@@ -19,7 +19,7 @@ pub use bootstrap::Interval;
 pub use disagreement::{Disagreement, PointDisagreement};
 pub use majority::{Majority, majorities};
 pub use measurement::{Measured, Measurement, Quantity};
-pub use runs::{StudyError, StudyReport, StudyRuns};
+pub use runs::{StudyReport, StudyRuns};
 pub use sample::{Cost, Sample};
 pub use shift::Shift;
 pub use states::{ShiftOf, States};

@@ -6,9 +6,7 @@ use crate::classify::Label;
 use crate::record::{Program, RunRecord};
 use crate::resume::{Checkpoints, DEFAULT_INTERVAL};
 use crate::store::StoreError;
-use crate::sweep::{
-    Backend, BackendError, Batch, Claim, Failure, Folder, Job, Report, Results, Wishes,
-};
+use crate::sweep::{Backend, Batch, Folder, Halt, Job, Report, Results, Wishes};
 use std::collections::{BTreeMap, HashMap};
 use std::path::PathBuf;
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -40,24 +38,13 @@ pub struct StudyReport {
     pub made: Report,
 }
 
-/// Why a study was given up.
-#[derive(Debug, thiserror::Error)]
-pub enum StudyError {
-    /// The table cannot be written.
-    #[error(transparent)]
-    Store(#[from] StoreError),
-    /// No run can be made.
-    #[error(transparent)]
-    Backend(#[from] BackendError),
-}
-
 impl StudyRuns<'_> {
     /// Makes the runs of which no row is known, and keeps the table up to date, and beside it which
     /// build made each row.
     ///
     /// # Errors
     /// If a file cannot be written, or no run be made.
-    pub fn run(&self, known: KnownRuns) -> Result<StudyReport, StudyError> {
+    pub fn run(&self, known: KnownRuns) -> Result<StudyReport, Halt> {
         let jobs = &self.comparison.jobs;
         let rows = known.rows.into_iter().map(|row| (row.id.clone(), row));
         let mut rows: HashMap<String, RunRow> = rows.collect();
@@ -76,10 +63,10 @@ impl StudyRuns<'_> {
             }),
         };
         let known = jobs.len() - pending.len();
-        let mut made = Batch::new(pending, &table, self.wishes).run_on(self.backend)?;
+        let mut made = Batch::new(pending, &table, self.wishes).run_on(self.backend);
         let written = table.write(&table.lock());
         if let Some(error) = made.halted.take() {
-            return Err(error.into());
+            return Err(error);
         }
         written?;
         let state = table.state.into_inner();
@@ -149,11 +136,6 @@ impl Results for Table<'_> {
         false
     }
 
-    fn claim(&self, _: &Job) -> Result<Option<Claim>, StoreError> {
-        // The folder of a study has one process at a time.
-        Ok(Some(Claim::Alone))
-    }
-
     fn keep(&self, job: &Job, record: &RunRecord) -> Result<(), StoreError> {
         let row = self.of.row(job, record);
         let mut state = self.lock();
@@ -171,10 +153,5 @@ impl Results for Table<'_> {
 
     fn checkpoints(&self, job: &Job) -> Checkpoints {
         self.of.folder.checkpoints(&job.id, DEFAULT_INTERVAL)
-    }
-
-    fn note_failures(&self, _: &[&Failure]) -> Result<(), StoreError> {
-        // They have no row, so that the same command tries them again.
-        Ok(())
     }
 }

@@ -1,6 +1,6 @@
 //! Threads of this process.
 
-use super::{Backend, BackendError, Batch, Event};
+use super::{Backend, BackendError, Batch, Claim, Event, Permit};
 use crate::resume::Ending;
 use crate::run::{Progress, Run};
 use crate::simulation::BuildError;
@@ -34,24 +34,16 @@ impl<'a> LocalThreads<'a> {
         Self { begin, ..self }
     }
 
-    fn run_job(&self, batch: &Batch<'_>, job: &Job) {
-        let Some(_claim) = batch.claim(job) else {
-            return;
-        };
+    fn run_job(&self, batch: &Batch<'_>, permit: Permit<'_>) {
+        let job = permit.job();
         batch.tell(Event::Started(job));
         let run = || (self.begin)(job).map(|run| drive(batch, job, resumed(batch, job, run)));
         match catch_unwind(AssertUnwindSafe(run)) {
-            Ok(Ok(driven)) => match driven.ending {
-                Ending::Finished(record) => {
-                    batch.finish(job, &record, driven.is_resumed, driven.left);
-                }
-                Ending::Lost(error) => batch.tell(Event::NoCheckpoint(job, &error)),
-                Ending::Interrupted | Ending::EarlierKept => {}
-            },
-            Ok(Err(error)) => batch.fail(job, error.to_string()),
-            Err(panic) => {
-                batch.fail(job, format!("a bug in phase: {}", panic_message(&*panic)));
-            }
+            Ok(Ok(Ending::Finished(record))) => permit.finish(&record),
+            Ok(Ok(Ending::Lost(error))) => batch.tell(Event::NoCheckpoint(job, &error)),
+            Ok(Ok(Ending::Interrupted | Ending::EarlierKept)) => {}
+            Ok(Err(error)) => permit.fail(error.to_string()),
+            Err(panic) => permit.fail(format!("a bug in phase: {}", panic_message(&*panic))),
         }
     }
 }
@@ -59,21 +51,12 @@ impl<'a> LocalThreads<'a> {
 impl Backend for LocalThreads<'_> {
     fn run(&self, batch: &Batch<'_>) -> Result<(), BackendError> {
         let done = work::each(self.count, batch.jobs(), |job| {
-            if !batch.is_over() {
-                self.run_job(batch, job);
+            if let Claim::Granted(permit) = batch.claim(job) {
+                self.run_job(batch, permit);
             }
         });
-        done.map_err(|error| BackendError(error.into()))
+        done.map_err(|error| BackendError::new(format!("cannot start the workers: {error}")))
     }
-}
-
-/// How a run came back.
-struct Driven {
-    ending: Ending,
-    /// Whether it went on from a checkpoint.
-    is_resumed: bool,
-    /// Work that was not told.
-    left: u64,
 }
 
 /// The run of a job: at its checkpoint, if there is a good one and it may be used.
@@ -89,9 +72,8 @@ fn resumed(batch: &Batch<'_>, job: &Job, mut run: Run) -> Run {
 }
 
 /// Advances a run to its end and tells its progress.
-fn drive(batch: &Batch<'_>, job: &Job, run: Run) -> Driven {
-    let first = run.progress().frame;
-    let (mut frame, mut work) = (first, job.work_at(&run.progress()));
+fn drive(batch: &Batch<'_>, job: &Job, run: Run) -> Ending {
+    let (mut frame, mut work) = (run.progress().frame, job.work_at(&run.progress()));
     let mut control = |progress: Progress| {
         // A frame may take less than a millisecond: too often for people, and for locks.
         let frames = progress.frames;
@@ -106,12 +88,7 @@ fn drive(batch: &Batch<'_>, job: &Job, run: Run) -> Driven {
         }
     };
     let mut warn = |error: StoreError| batch.tell(Event::NoCheckpoint(job, &error));
-    let ending = batch.checkpoints(job).run(run, &mut control, &mut warn);
-    Driven {
-        ending,
-        is_resumed: first > 0,
-        left: job.work().saturating_sub(work),
-    }
+    batch.checkpoints(job).run(run, &mut control, &mut warn)
 }
 
 /// What a panic said.

@@ -3,7 +3,7 @@
 use super::{Refining, borders};
 use crate::classify::{Family, LabelTable};
 use crate::refine::{
-    Borders, Code, Lattice, Observations, ProbabilityMap, RefineError, Run, probabilities,
+    Borders, Code, Lattice, Observations, ProbabilityMap, RefineError, Trial, probabilities,
 };
 use crate::store::{self, BorderRow, StoreError};
 use crate::sweep::{Folder, Sweep};
@@ -13,7 +13,7 @@ pub const FAILED: Code = i8::MIN;
 
 /// Name of the label with a code.
 pub fn label_name(family: &Family, code: Code) -> &'static str {
-    let mut labels = family.labels.iter();
+    let mut labels = family.labels().into_iter();
     let label = labels.find(|label| label.code == code);
     label.map_or("failed", |label| label.name)
 }
@@ -45,13 +45,13 @@ impl Learnt {
         };
         let lattice = sweep.lattice()?;
         let chosen = refining.map(Refining::runs);
-        let is_of_sweep = |run: &Run| {
+        let is_of_sweep = |run: &Trial| {
             let mut chosen = chosen.iter();
             chosen.all(|runs| runs.binary_search_by(|it| it.order(run)).is_ok())
         };
         let mut runs = Observations::new();
         for row in &table.rows {
-            let run = Run {
+            let run = Trial {
                 values: row.values.clone(),
                 seed: row.seed,
             };
@@ -84,7 +84,11 @@ impl Learnt {
     pub fn write(&self, folder: &Folder, sweep: &Sweep, family: &Family) -> Result<(), StoreError> {
         let axes: Vec<&str> = sweep.axes.iter().map(|axis| axis.name.as_str()).collect();
         let name = |code: Code| label_name(family, code);
-        let mut codes: Vec<Code> = family.labels.iter().map(|label| label.code).collect();
+        let mut codes: Vec<Code> = family
+            .labels()
+            .into_iter()
+            .map(|label| label.code)
+            .collect();
         codes.extend(self.map.codes().iter().filter(|code| **code == FAILED));
         let path = folder.refined();
         store::write_probabilities(&axes, &self.lattice, &self.map, (&codes, &name), &path)?;

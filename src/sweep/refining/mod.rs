@@ -14,7 +14,7 @@ pub use rounds::{Refined, RoundsError, WatchRounds};
 
 use super::{Job, Sweep};
 use crate::grid::{Axis, PointError};
-use crate::refine::{Finish, Lattice, RefineError, Run, Settings, Width, start};
+use crate::refine::{Finish, Lattice, RefineError, Settings, Trial, Width, start};
 use crate::scene::LARGEST_SEED;
 use serde::{Deserialize, Serialize};
 
@@ -27,16 +27,16 @@ pub struct Refining {
     pub basis: String,
     /// Runs that were in the folder when refining began; they count as part of the budget.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub given: Vec<Run>,
+    pub given: Vec<Trial>,
     /// If the folder held the whole grid when refining began, and more runs than the budget: the
     /// number of seeds that all its points had. Refining chooses among these runs alone.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub seeds_there: Option<u64>,
     /// Runs that refining has chosen, in its order: the coarse grid first.
-    pub chosen: Vec<Run>,
+    pub chosen: Vec<Trial>,
     /// Of all these, runs that failed.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub failed: Vec<Run>,
+    pub failed: Vec<Trial>,
     /// How well each pair of neighbouring labels is told apart, after the last round that is done.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub widths: Vec<Width>,
@@ -65,9 +65,9 @@ impl Refining {
     }
 
     /// All runs, by place and seed.
-    pub fn runs(&self) -> Vec<Run> {
-        let mut runs: Vec<Run> = self.given.iter().chain(&self.chosen).cloned().collect();
-        runs.sort_by(Run::order);
+    pub fn runs(&self) -> Vec<Trial> {
+        let mut runs: Vec<Trial> = self.given.iter().chain(&self.chosen).cloned().collect();
+        runs.sort_by(Trial::order);
         runs.dedup();
         runs
     }
@@ -133,7 +133,7 @@ impl Sweep {
         let axes = self.axes.iter();
         let axes = axes.map(|axis| {
             let scale = scale::scale_of(&axis.values);
-            crate::refine::Axis::new(&axis.name, axis.values.clone(), scale)
+            crate::refine::LatticeAxis::new(&axis.name, axis.values.clone(), scale)
         });
         Lattice::new(axes.collect::<Result<_, _>>()?)
     }
@@ -248,8 +248,8 @@ impl Sweep {
     }
 
     /// The jobs of runs of a refined sweep, those of points and seeds that the sweep still has.
-    pub(super) fn jobs_of_runs(&self, runs: &[Run]) -> Result<Vec<Job>, PointError> {
-        let is_there = |run: &&Run| {
+    pub(super) fn jobs_of_runs(&self, runs: &[Trial]) -> Result<Vec<Job>, PointError> {
+        let is_there = |run: &&Trial| {
             let mut values = self.axes.iter().zip(&run.values);
             self.seeds.contains(&run.seed) && values.all(|(axis, it)| axis.values.contains(it))
         };

@@ -4,7 +4,10 @@ use super::learnt::{FAILED, Learnt};
 use super::{Refining, ends_before};
 use crate::classify::{Family, LabelTable};
 use crate::grid::PointError;
-use crate::refine::{Finish, Gap, Observations, RefineError, Round, Rounds, Run, Settings, widths};
+use crate::refine::{
+    Finish, Gap, Observations, RefineError, Round, Rounds, Settings, Trial, widths,
+};
+use crate::refusal::Refusal;
 use crate::sweep::{Folder, Job, Labelling, Plan, Sweep};
 use std::collections::HashSet;
 
@@ -56,6 +59,12 @@ pub enum RefinementError {
     /// The sweep has no table `[refine]`.
     #[error("the sweep is not refined")]
     NotRefined,
+}
+
+impl Refusal for RefinementError {
+    fn is_refusal(&self) -> bool {
+        !matches!(self, Self::Threads(_))
+    }
 }
 
 impl Refinement {
@@ -227,9 +236,9 @@ impl Known {
         sweep: &Sweep,
         jobs: &[Job],
         workers: usize,
-    ) -> Result<Vec<Run>, RefinementError> {
+    ) -> Result<Vec<Trial>, RefinementError> {
         for row in Labelling::new(folder, sweep, jobs, workers)?.table.rows {
-            let run = Run {
+            let run = Trial {
                 values: row.values.clone(),
                 seed: row.seed,
             };
@@ -243,7 +252,7 @@ impl Known {
     /// The runs that are given when refining begins: those that it began with if it goes on, or
     /// else all that are there. Of a whole grid of more runs than the budget none are given: the
     /// number of seeds of its points comes first then, and refining chooses among them.
-    fn given(&self, folder: &Folder, sweep: &Sweep) -> (Option<u64>, Vec<Run>) {
+    fn given(&self, folder: &Folder, sweep: &Sweep) -> (Option<u64>, Vec<Trial>) {
         if let Some(stored) = goes_on(folder, sweep) {
             return (None, stored.given);
         }
@@ -257,8 +266,8 @@ impl Known {
 }
 
 /// The place and seed of a job.
-fn run_of(job: &Job) -> Run {
-    Run {
+fn run_of(job: &Job) -> Trial {
+    Trial {
         values: job.values.clone(),
         seed: job.seed,
     }

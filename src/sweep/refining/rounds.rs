@@ -2,14 +2,11 @@
 
 use super::{Refinement, RefinementError, Refining, Step};
 use crate::refine::Finish;
+use crate::refusal::Refusal;
 use crate::store::StoreError;
-use crate::sweep::{FolderError, Job, Plan, Pool, PoolError, Report, Standing, write_failures};
+use crate::sweep::{FolderError, Job, Plan, Pool, PoolError, Report, Standing};
+use std::collections::HashSet;
 use std::sync::atomic::Ordering;
-use std::thread;
-use std::time::Duration;
-
-/// Time between two looks at what other processes are making.
-const BETWEEN_LOOKS: Duration = Duration::from_millis(100);
 
 /// Who watches a sweep while it is refined. All methods may be left as they are: then rounds are
 /// run without a word.
@@ -64,6 +61,16 @@ pub enum RoundsError {
     Store(#[from] StoreError),
 }
 
+impl Refusal for RoundsError {
+    fn is_refusal(&self) -> bool {
+        match self {
+            Self::Refinement(error) => error.is_refusal(),
+            Self::Pool(error) => error.is_refusal(),
+            Self::Folder(_) | Self::Store(_) => false,
+        }
+    }
+}
+
 /// A sweep that has been refined, or as far as it came.
 pub struct Refined {
     /// All jobs so far, with what the folder holds of them.
@@ -99,9 +106,13 @@ impl Pool<'_> {
                 Step::Run(jobs) => jobs,
             };
             self.keep_progress(&refinement)?;
-            let round = self.run_round(&refinement, &jobs, watcher)?;
+            let plan = self.plan_of_round(refinement.refining(), &jobs)?;
+            let round = watcher.run(self, &plan, &refinement)?;
             let is_whole = round.left == 0 && round.halted.is_none();
-            report = Some(self.added(report, round));
+            report = Some(match report {
+                Some(before) => before.and(round),
+                None => round,
+            });
             if !is_whole {
                 break None;
             }
@@ -129,45 +140,6 @@ impl Pool<'_> {
         })
     }
 
-    /// Runs the jobs of a round, those included that another process has begun and not ended.
-    fn run_round<W: WatchRounds>(
-        &self,
-        refinement: &Refinement,
-        jobs: &[Job],
-        watcher: &mut W,
-    ) -> Result<Report, W::Error> {
-        let plan = self.plan_of_round(refinement.refining(), jobs)?;
-        let mut report = watcher.run(self, &plan, refinement)?;
-        while report.elsewhere > 0 && report.left == 0 && report.halted.is_none() {
-            if !self.wait_for_others(jobs) {
-                report.left = report.elsewhere;
-                break;
-            }
-            let failed: Vec<&str> = report.failures.iter().map(|it| it.id.as_str()).collect();
-            let mut plan = self.plan_of_round(refinement.refining(), jobs)?;
-            plan.jobs
-                .retain(|(job, _)| !failed.contains(&job.id.as_str()));
-            report.elsewhere = 0;
-            if plan.pending().next().is_some() {
-                let more = watcher.run(self, &plan, refinement)?;
-                report = report.and(more);
-            }
-        }
-        Ok(report)
-    }
-
-    /// Waits until no other process makes one of these jobs. False if it is to stop meanwhile.
-    fn wait_for_others(&self, jobs: &[Job]) -> bool {
-        let is_made = |job: &Job| self.folder.is_made_elsewhere(&job.id);
-        while jobs.iter().any(is_made) {
-            if self.wishes.stop.load(Ordering::Relaxed) {
-                return false;
-            }
-            thread::sleep(BETWEEN_LOOKS);
-        }
-        true
-    }
-
     fn keep_progress(&self, refinement: &Refinement) -> Result<(), RoundsError> {
         Ok(self.folder.write_refining(refinement.refining())?)
     }
@@ -182,35 +154,21 @@ impl Pool<'_> {
     /// The plan of all jobs that have not failed, of which only those of the round are pending.
     fn plan_of_round(&self, refining: &Refining, round: &[Job]) -> Result<Plan, RoundsError> {
         let mut plan = self.plan_of(Some(refining))?;
-        let has_failed = |job: &Job| {
-            let mut failed = refining.failed.iter();
-            failed.any(|run| run.values == job.values && run.seed == job.seed)
+        let point = |values: &[f64], seed| -> (Vec<u64>, u64) {
+            (values.iter().map(|value| value.to_bits()).collect(), seed)
         };
-        plan.jobs.retain(|(job, _)| !has_failed(job));
+        let failed = refining.failed.iter();
+        let failed: HashSet<_> = failed.map(|run| point(&run.values, run.seed)).collect();
+        plan.jobs
+            .retain(|(job, _)| !failed.contains(&point(&job.values, job.seed)));
         if !self.wishes.resume {
-            let of_round = |job: &Job| round.iter().any(|other| other.id == job.id);
-            let again = plan.jobs.iter_mut().filter(|(job, _)| of_round(job));
-            again.for_each(|(_, standing)| *standing = Standing::Missing);
+            let round: HashSet<&str> = round.iter().map(|job| job.id.as_str()).collect();
+            let again = plan.jobs.iter_mut();
+            again
+                .filter(|(job, _)| round.contains(job.id.as_str()))
+                .for_each(|(_, standing)| *standing = Standing::Missing);
         }
         Ok(plan)
-    }
-
-    /// What was run so far with a further round. The table of failures names those of all rounds,
-    /// where each round writes its own.
-    fn added(&self, before: Option<Report>, round: Report) -> Report {
-        let mut all = match before {
-            Some(before) => before.and(round),
-            None => round,
-        };
-        if !all.failures.is_empty() {
-            let path = self.folder.failures();
-            let written = write_failures(&self.sweep.axes, &all.failures, &path);
-            match written.err() {
-                Some(error) if error.concerns_all_files() => all.halted = Some(error),
-                other => all.unnoted = other,
-            }
-        }
-        all
     }
 
     /// Learns a round, and writes what is known by now.

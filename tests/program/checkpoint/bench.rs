@@ -43,7 +43,7 @@ pub(crate) fn interrupted_by(name: &str) -> Workplace {
         end(child)
             .code(130)
             .complains("interrupted at frame ")
-            .complains("the same command with --resume goes on from there (run.checkpoint)");
+            .complains("the same command with --resume continues from there (run.checkpoint)");
     }
     assert!(!place.path("run.h5").exists());
     place

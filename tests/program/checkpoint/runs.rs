@@ -15,7 +15,7 @@ fn an_interrupted_run_goes_on_from_its_checkpoint() {
         let place = interrupted_by(name);
         let answer = resume(&place, &["--json"])
             .code(0)
-            .complains("going on at ")
+            .complains("continuing at ")
             .complains("from run.checkpoint");
         let answer: serde_json::Value = serde_json::from_str(&answer.stdout).unwrap();
         assert!(answer["resumed_from"].as_f64().unwrap() > 0.0);
@@ -51,7 +51,7 @@ fn a_run_from_the_beginning_replaces_a_checkpoint_only_with_one_of_its_own_time(
     let mut lines = BufReader::new(stderr).lines().map(Result::unwrap);
     let line = lines.find(|line| line.contains("run.checkpoint")).unwrap();
     assert!(line.contains("run.checkpoint is there"), "{line}");
-    assert!(line.contains("--resume would go on"), "{line}");
+    assert!(line.contains("--resume would continue"), "{line}");
     signal(&child, "INT");
     end(child).code(130);
     assert_eq!(fs::read(place.path("run.checkpoint")).unwrap(), before);
@@ -193,7 +193,7 @@ fn a_job_that_is_run_again_goes_on_too() {
     place
         .phase(&[&again[..], &["--resume"]].concat())
         .code(0)
-        .complains("going on at ")
+        .complains("continuing at ")
         .says("same bits as in the sweep");
 }
 
@@ -214,7 +214,7 @@ fn two_runs_do_not_share_a_record() {
     let mut first = under_way(&place, "run.h5");
     let second = ["run", "scene.toml", "--out", "run.h5"];
     place.phase(&second).code(2).complains(
-        "run.h5: another `phase run` is making this record; wait until it ends, or choose",
+        "run.h5: another `phase run` is writing this record; wait until it ends, or choose",
     );
     place
         .phase(&["run", "scene.toml", "--out", "else.h5"])
@@ -237,9 +237,9 @@ fn a_record_that_cannot_be_written_leaves_the_checkpoint() {
     end(run)
         .code(1)
         .complains("cannot write run.h5")
-        .complains("stays: the same command with --resume goes on from there (run.checkpoint)");
+        .complains("is kept: the same command with --resume continues from there (run.checkpoint)");
     fs::remove_dir(place.path("run.h5")).unwrap();
-    resume(&place, &[]).code(0).complains("going on at ");
+    resume(&place, &[]).code(0).complains("continuing at ");
     let expected = whole(&phase::scene::Scene::load(&place.path("scene.toml")).unwrap());
     let found = digest(&place.path("run.h5"));
     assert_eq!(found, content_digest(&expected).unwrap());

@@ -102,7 +102,7 @@ fn a_point_of_a_scene_is_refused() {
     place
         .phase(&["run", "scene.toml", "--point", "radius=0.003"])
         .code(2)
-        .complains("--point is a job of a sweep");
+        .complains("--point selects a job of a sweep");
     assert!(!place.path("results").exists());
 }
 

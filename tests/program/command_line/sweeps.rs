@@ -168,7 +168,7 @@ fn unstable_runs_are_named_and_no_failure() {
     place
         .phase(&["status", "results/tiny"])
         .code(0)
-        .says("unstable   6 of those done");
+        .says("unstable   6 of the done jobs");
 }
 
 #[test]

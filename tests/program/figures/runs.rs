@@ -3,6 +3,7 @@
 use super::bench::{SNAP, Tank, lines, shows, words_are_apart};
 use phase::plot::{self, Source};
 use phase::record::Program;
+use phase::refusal::Refusal;
 use phase::store::read_record;
 use phase::sweep::parse_point;
 use std::path::Path;
@@ -180,7 +181,7 @@ fn points_that_do_not_exist_are_refused() {
     assert!(
         tank.try_draw("phase", &["radius=0.002,omega=2"])
             .unwrap_err()
-            .is_of_request()
+            .is_refusal()
     );
     tank.table.rows.clear();
     assert!(
@@ -204,7 +205,7 @@ fn a_missing_record_is_named() {
         program: &Program::current(),
     };
     let error = plot::draw("energies", &source).unwrap_err();
-    assert!(!error.is_of_request());
+    assert!(!error.is_refusal());
     let message = error.to_string();
     let start = "the run at radius = 0.002, omega = 2, seed = 2: cannot read nowhere/2-2-2: ";
     assert!(message.starts_with(start), "{message}");

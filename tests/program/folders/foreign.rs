@@ -182,7 +182,7 @@ fn files_of_the_same_format_are_not_replaced() {
         ),
         (&["view", "run.h5"], "run.png", b"\x89PNG\r\n\x1a\n"),
         (
-            &["man", "--out", "pages"],
+            &["generate", "man", "pages"],
             "pages/phase-view.1",
             b".TH view 1\n",
         ),

@@ -189,7 +189,7 @@ fn edited_thresholds_change_all_folders_or_none() {
     place
         .phase(&classify)
         .code(2)
-        .complains("results/b: the runs in this folder are not those");
+        .complains("results/b: the edited sweep describes other runs");
     assert_eq!(files(), before);
     fs::remove_dir_all(place.path("results/b")).unwrap();
     place.phase(&classify).code(0).says("6 of 6 labels changed");

@@ -135,7 +135,7 @@ fn svg_shows_what_is_in_to_scale() {
     place
         .phase(&fewer)
         .code(2)
-        .complains("frame_00010.svg: this is a frame of another export");
+        .complains("frame_00010.svg: this frame is left over");
 }
 
 #[test]

@@ -97,10 +97,10 @@ fn what_is_no_dump_of_the_scene_is_refused() {
     let classify = |more: &[&str]| place.phase(&[&["classify"], more].concat());
     classify(&["dumps"])
         .code(2)
-        .complains("say with --scene FILE");
+        .complains("give the scene of the dumps with --scene FILE");
     classify(&["results/tiny", "--scene", "scene.toml"])
         .code(2)
-        .complains("needs no --scene");
+        .complains("drop --scene");
     std::fs::create_dir(place.path("empty")).unwrap();
     classify(&["empty", "--scene", "scene.toml"])
         .code(2)

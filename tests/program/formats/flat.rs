@@ -170,11 +170,11 @@ fn several_runs_stand_beside_each_other() {
         let half: Vec<u8> = pixels.chunks(4 * 206).take(200).flat_map(row).collect();
         assert!(holds(&half, [0x44, 0x01, 0x54]) && holds(&half, [0xfd, 0xe7, 0x25]));
     }
-    view(&[])
-        .code(2)
-        .complains("name the picture of several records with --out");
+    view(&[]).code(2).complains("several records need --out");
     for way in ["--animate", "--each"] {
-        view(&[way, "x.png"]).code(2).complains("take one record");
+        view(&[way, "x.png"])
+            .code(2)
+            .complains("take a single record");
     }
     view(&["--out", "silo.h5"]).code(2);
     std::fs::copy(place.path("other.h5"), place.path("other.png")).unwrap();
@@ -218,7 +218,7 @@ fn every_state_is_a_picture() {
     each(&["--json"])
         .code(0)
         .says("{\"files\":[\"frames\"]}")
-        .complains("19 pictures of 60 pixels' width");
+        .complains("19 pictures, 60 pixels wide");
     let count = |folder: &str| std::fs::read_dir(place.path(folder)).unwrap().count();
     assert_eq!(count("frames"), 19);
     let sizes = (0..19).map(|frame| {
@@ -231,7 +231,7 @@ fn every_state_is_a_picture() {
     each(&[]).code(0);
     each(&["--time", "at-rest"])
         .code(2)
-        .complains("frame_00001.png: this is a frame of another export");
+        .complains("frame_00001.png: this frame is left over");
     each(&["--out", "x.png"]).code(2);
 }
 

@@ -103,7 +103,7 @@ fn a_damaged_record_is_found_before_the_run() {
         .phase(&AGAIN)
         .code(2)
         .complains("it is not an HDF5 file")
-        .complains("`phase sweep` makes it again");
+        .complains("`phase sweep` replaces it");
     assert!(!place.path("results/tiny/runs").exists());
 }
 
@@ -113,7 +113,7 @@ fn the_point_must_be_one_of_the_sweep() {
     let from = |more: &[&str]| place.phase(&[&["run", "--from", "results/tiny"], more].concat());
     from(&[])
         .code(2)
-        .complains("--point: say which run: add omega=..., one of 0, 4, 8");
+        .complains("--point: add omega=... to choose a run; values: 0, 4, 8");
     from(&["--point", "omega=5"])
         .code(2)
         .complains("`omega` is never 5; it takes 0, 4, 8");
@@ -129,7 +129,7 @@ fn the_point_must_be_one_of_the_sweep() {
         .complains("0 or more");
     from(&["--point", "omega=4"])
         .code(0)
-        .complains("taking the first, seed=1");
+        .complains("using the first, seed=1");
     let own = original(&place);
     from(&["--point", "omega=4,seed=2", "--out", own.to_str().unwrap()])
         .code(2)

@@ -99,7 +99,7 @@ fn files_that_are_no_pictures_stay() {
     for name in ["v.jpg", "v.gif", "v", "run.h5"] {
         view(&["--out", name])
             .code(2)
-            .complains("a picture is a .png");
+            .complains("a picture must be a .png");
     }
     place.write("notes.png", "mine");
     for way in ["--out", "--animate"] {
@@ -156,14 +156,14 @@ fn pictures_are_not_higher_than_they_may_be() {
     place
         .phase(&["view", "run.h5", "--time", "0", "--width", "4000"])
         .code(0)
-        .complains("instead of 4000 pixels wide: a picture is at most 4000 pixels high");
+        .complains("pixels wide instead of 4000: a picture is at most 4000 pixels high");
     let (_, height, ..) = decode(&place, "run.png");
     assert!((3950..=4000).contains(&height), "{height}");
     place
         .phase(&["view", "run.h5", "--animate", "run.gif", "--width", "2000"])
         .code(0)
         .complains("draws ")
-        .complains("instead of 2000 pixels wide: an animation is at most 720 pixels high");
+        .complains("pixels wide instead of 2000: an animation is at most 720 pixels high");
 }
 
 #[test]
@@ -218,7 +218,7 @@ fn animations_play_the_whole_run() {
     }
     // 2 s, in real time.
     assert_eq!(delays, [10; 21]);
-    view("run.mp4").code(2).complains("a .png (APNG) or a .gif");
+    view("run.mp4").code(2).complains("a .png (APNG) or .gif");
 }
 
 /// Symptom: two runs had one caption. Cause: captions said nothing of keys other than number,

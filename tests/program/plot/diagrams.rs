@@ -148,7 +148,7 @@ fn the_full_diagram_with_gaps_and_its_maps() {
         (!missing).then(|| made_up(values[0], values[1], 0.0))
     });
     let svg = draw("full", "phase", &sweep, &table);
-    for &label in TANK.labels {
+    for label in TANK.labels() {
         assert!(has(&svg, &label.name.replace('-', " ")));
     }
     assert!(has(&svg, "not run"));

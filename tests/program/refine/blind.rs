@@ -4,7 +4,7 @@
 use super::maps::PublishedMap;
 use super::replay::{Oracle, replay};
 use super::score::score;
-use phase::refine::{Axis, Borders, Code, Lattice, Rounds, Run, Scale, Settings};
+use phase::refine::{AxisScale, Borders, Code, Lattice, LatticeAxis, Rounds, Settings, Trial};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
@@ -23,8 +23,8 @@ fn axes(count: usize) -> Lattice {
         .map(|k| 5.0 * k as f64 / (count - 1) as f64)
         .collect();
     Lattice::new(vec![
-        Axis::new("load", linear, Scale::Linear).unwrap(),
-        Axis::new("rate", values(0.1, 100.0), Scale::Log).unwrap(),
+        LatticeAxis::new("load", linear, AxisScale::Linear).unwrap(),
+        LatticeAxis::new("rate", values(0.1, 100.0), AxisScale::Log).unwrap(),
     ])
     .unwrap()
 }
@@ -59,7 +59,7 @@ impl Oracle for Blind {
         &self.lattice
     }
 
-    fn label(&self, run: &Run) -> Code {
+    fn label(&self, run: &Trial) -> Code {
         let unit = self.lattice.unit_of(&run.values).unwrap();
         if !self.is_noisy {
             return label_at(unit[0], unit[1]);
@@ -162,7 +162,7 @@ fn probabilities_are_calibrated() {
         let within = |place: &usize| (low..high).contains(&map.certainty(*place));
         let places: Vec<usize> = (0..lattice.places()).filter(within).collect();
         let shown = |place: &usize| {
-            let seeds = (100..120).map(|seed| Run {
+            let seeds = (100..120).map(|seed| Trial {
                 values: lattice.values(*place),
                 seed,
             });

@@ -6,7 +6,9 @@
 //! places alone.
 
 use phase::refine::model::Fitted;
-use phase::refine::{Axis, Borders, Code, Curve, Lattice, Panel, ProbabilityMap, Scale};
+use phase::refine::{
+    AxisScale, BorderCurve, Borders, Code, Lattice, LatticeAxis, LatticePlane, ProbabilityMap,
+};
 use proptest::prelude::*;
 
 /// Made-up logarithms of probabilities: for each label a constant, slopes and a curvature.
@@ -28,8 +30,9 @@ impl Fitted for MadeUp {
 
 fn map(labels: Vec<[f64; 4]>) -> (Lattice, ProbabilityMap) {
     let values = |count: usize| (0..count).map(|k| (k * k) as f64);
-    let across = Axis::new("x", values(8).collect(), Scale::Rank).unwrap();
-    let up = Axis::new("y", values(11).map(|it| 1.0 + it).collect(), Scale::Log).unwrap();
+    let across = LatticeAxis::new("x", values(8).collect(), AxisScale::Rank).unwrap();
+    let up =
+        LatticeAxis::new("y", values(11).map(|it| 1.0 + it).collect(), AxisScale::Log).unwrap();
     let lattice = Lattice::new(vec![across, up]).unwrap();
     let codes: Vec<Code> = (0..labels.len() as Code).collect();
     let map = ProbabilityMap::new(&lattice, &codes, &MadeUp(labels));
@@ -37,8 +40,8 @@ fn map(labels: Vec<[f64; 4]>) -> (Lattice, ProbabilityMap) {
 }
 
 /// Borders of all pairs of labels.
-fn curves(lattice: &Lattice, map: &ProbabilityMap) -> Vec<([Code; 2], Curve)> {
-    let panel = Panel {
+fn curves(lattice: &Lattice, map: &ProbabilityMap) -> Vec<([Code; 2], BorderCurve)> {
+    let panel = LatticePlane {
         lattice,
         map,
         x: 0,

@@ -1,8 +1,8 @@
 //! Refining as a user of the library sees it.
 
 use phase::refine::{
-    Axis, Borders, Code, Finish, Gap, Lattice, ModelKind, Observations, Panel, RefineError, Round,
-    Rounds, Run, Scale, Settings, probabilities, widths,
+    AxisScale, Borders, Code, Finish, Gap, Lattice, LatticeAxis, LatticePlane, ModelKind,
+    Observations, RefineError, Round, Rounds, Settings, Trial, probabilities, widths,
 };
 
 /// A quarter disc of label 1 in a field of 3, by the values of the axes.
@@ -14,7 +14,7 @@ fn label(values: &[f64]) -> Code {
 fn square(count: usize) -> Lattice {
     let axis = |name| {
         let values = (0..count).map(|k| 8.0 * k as f64 / (count - 1) as f64);
-        Axis::new(name, values.collect(), Scale::Linear).unwrap()
+        LatticeAxis::new(name, values.collect(), AxisScale::Linear).unwrap()
     };
     Lattice::new(vec![axis("x"), axis("y")]).unwrap()
 }
@@ -23,7 +23,7 @@ fn square(count: usize) -> Lattice {
 fn finished(
     lattice: &Lattice,
     settings: &Settings,
-    label: impl Fn(&Run) -> Code,
+    label: impl Fn(&Trial) -> Code,
 ) -> (Observations, Finish) {
     let mut rounds = Rounds::new(lattice.clone(), settings.clone()).unwrap();
     loop {
@@ -40,12 +40,12 @@ fn finished(
 }
 
 /// The runs of all rounds.
-fn refine(lattice: &Lattice, settings: &Settings, label: impl Fn(&Run) -> Code) -> Observations {
+fn refine(lattice: &Lattice, settings: &Settings, label: impl Fn(&Trial) -> Code) -> Observations {
     finished(lattice, settings, label).0
 }
 
 /// The runs of the first round.
-fn first_round(lattice: &Lattice, settings: &Settings) -> Vec<Run> {
+fn first_round(lattice: &Lattice, settings: &Settings) -> Vec<Trial> {
     let mut rounds = Rounds::new(lattice.clone(), settings.clone()).unwrap();
     match rounds.next_round().unwrap() {
         Round::Runs(round) => round,
@@ -112,21 +112,21 @@ fn settings_out_of_range_are_refused() {
 #[test]
 fn axes_that_cannot_be_are_refused() {
     let axis = |values: &[f64], scale| {
-        let axis = Axis::new("rate", values.to_vec(), scale);
+        let axis = LatticeAxis::new("rate", values.to_vec(), scale);
         axis.err().map(|error| error.to_string())
     };
     let refusal = |reason| Some(format!("axis `rate`: {reason}"));
-    assert_eq!(axis(&[], Scale::Linear), refusal("it has no values"));
+    assert_eq!(axis(&[], AxisScale::Linear), refusal("it has no values"));
     assert_eq!(
-        axis(&[1.0, 1.0], Scale::Rank),
+        axis(&[1.0, 1.0], AxisScale::Rank),
         refusal("the values do not ascend")
     );
     assert_eq!(
-        axis(&[0.0, 1.0], Scale::Log),
+        axis(&[0.0, 1.0], AxisScale::Log),
         refusal("a logarithmic axis needs values above 0")
     );
     assert_eq!(
-        axis(&[1.0, f64::NAN], Scale::Linear),
+        axis(&[1.0, f64::NAN], AxisScale::Linear),
         refusal("a value is not finite")
     );
     assert!(Lattice::new(Vec::new()).is_err());
@@ -240,7 +240,7 @@ fn crossings_and_curves_lie_on_the_border() {
         assert!(c <= a && a <= y && y <= b && b <= d, "{crossing:?}");
     }
     assert!(Borders::new(&lattice, &map, 2).is_err());
-    let panel = Panel {
+    let panel = LatticePlane {
         lattice: &lattice,
         map: &map,
         x: 0,
@@ -273,10 +273,10 @@ fn crossings_and_curves_lie_on_the_border() {
 fn three_axes_share_what_is_learnt() {
     let axis = |name, count: usize| {
         let values = (0..count).map(|k| k as f64).collect();
-        Axis::new(name, values, Scale::Rank).unwrap()
+        LatticeAxis::new(name, values, AxisScale::Rank).unwrap()
     };
     let lattice = Lattice::new(vec![axis("x", 9), axis("y", 9), axis("z", 5)]).unwrap();
-    let label = |run: &Run| {
+    let label = |run: &Trial| {
         if run.values[1] + run.values[2] > 5.5 {
             2
         } else {
@@ -289,7 +289,7 @@ fn three_axes_share_what_is_learnt() {
     let map = probabilities(&lattice, &runs, &settings).unwrap();
     let wanted = |place: usize| {
         let values = lattice.values(place);
-        label(&Run { values, seed: 1 })
+        label(&Trial { values, seed: 1 })
     };
     let right = (0..405)
         .filter(|place| map.label(*place) == wanted(*place))
@@ -299,13 +299,13 @@ fn three_axes_share_what_is_learnt() {
 
 #[test]
 fn places_off_the_grid_keep_those_of_the_grid() {
-    let axis = Axis::new("rate", vec![1.0, 10.0, 100.0], Scale::Log)
+    let axis = LatticeAxis::new("rate", vec![1.0, 10.0, 100.0], AxisScale::Log)
         .unwrap()
         .finer(2);
     assert_eq!(axis.values().len(), 5);
     assert!((axis.values()[1] - 10.0_f64.sqrt()).abs() < 1e-12);
     assert_eq!(axis.values()[2], 10.0);
-    let rank = Axis::new("rate", vec![0.0, 1.0, 8.0], Scale::Rank).unwrap();
+    let rank = LatticeAxis::new("rate", vec![0.0, 1.0, 8.0], AxisScale::Rank).unwrap();
     assert_eq!(rank.finer(2).values(), [0.0, 0.5, 1.0, 4.5, 8.0]);
     for axis in [axis, rank] {
         for unit in [0.0, 0.2, 0.5, 0.9, 1.0] {
@@ -316,7 +316,7 @@ fn places_off_the_grid_keep_those_of_the_grid() {
 
 #[test]
 fn runs_that_contradict_each_other_are_refused() {
-    let run = Run {
+    let run = Trial {
         values: vec![1.0, 2.0],
         seed: 1,
     };
@@ -330,7 +330,7 @@ fn runs_that_contradict_each_other_are_refused() {
         "the run at [1.0, 2.0] with seed 1 has the labels 3 and 1"
     );
     runs.add(
-        Run {
+        Trial {
             values: vec![1.0],
             seed: 1,
         },
@@ -350,7 +350,7 @@ fn a_gap_tells_what_may_be_missed() {
         Err(RefineError::NoRuns)
     ));
     for values in [vec![0.0, 0.0], vec![8.0, 8.0]] {
-        runs.add(Run { values, seed: 1 }, 1).unwrap();
+        runs.add(Trial { values, seed: 1 }, 1).unwrap();
     }
     let gap = Gap::new(&lattice, &runs).unwrap();
     assert_eq!((gap.values, gap.radius), (vec![0.0, 8.0], 1.0));

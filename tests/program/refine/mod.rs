@@ -2,6 +2,7 @@
 
 mod blind;
 mod borders;
+mod given;
 mod interface;
 #[path = "../../../examples/oracle/maps.rs"]
 mod maps;

@@ -4,7 +4,7 @@ use super::maps::PublishedMap;
 use super::noise::{NoisyMap, agreement};
 use super::replay::{Oracle, replay};
 use super::score::{merged, score};
-use phase::refine::{Run, Settings};
+use phase::refine::{Settings, Trial};
 use std::path::{Path, PathBuf};
 
 fn path(name: &str) -> PathBuf {
@@ -84,7 +84,7 @@ fn published_maps_are_read() {
         .collect();
     assert_eq!(names, ["opening", "friction"]);
     assert_eq!(silo.at(0), [(1, 6), (2, 6), (3, 6)]);
-    let run = Run {
+    let run = Trial {
         values: vec![0.18, 0.0],
         seed: 1,
     };

@@ -1,8 +1,8 @@
 //! Properties that hold for all maps.
 
 use phase::refine::{
-    Axis, Borders, Code, Finish, Lattice, ModelKind, Observations, Round, Rounds, Run, Scale,
-    Settings, probabilities,
+    AxisScale, Borders, Code, Finish, Lattice, LatticeAxis, ModelKind, Observations, Round, Rounds,
+    Settings, Trial, probabilities,
 };
 use proptest::prelude::*;
 
@@ -10,7 +10,7 @@ fn square(count: usize) -> Lattice {
     let axis = |name| {
         // Distances are exact, so that mirrored places have the same.
         let values = (0..=count).map(|k| k as f64 / count as f64);
-        Axis::new(name, values.collect(), Scale::Linear).unwrap()
+        LatticeAxis::new(name, values.collect(), AxisScale::Linear).unwrap()
     };
     Lattice::new(vec![axis("x"), axis("y")]).unwrap()
 }
@@ -32,7 +32,7 @@ fn observed(lattice: &Lattice, places: &[usize], tilt: f64, height: f64) -> Obse
     for place in places {
         let values = lattice.values(*place);
         let label = label(&values, tilt, height);
-        runs.add(Run { values, seed: 1 }, label).unwrap();
+        runs.add(Trial { values, seed: 1 }, label).unwrap();
     }
     runs
 }
@@ -47,7 +47,7 @@ fn after(lattice: &Lattice, runs: &Observations, settings: &Settings) -> Rounds 
 }
 
 /// The runs of the round after these runs; none if it was the last.
-fn next(lattice: &Lattice, runs: &Observations, settings: &Settings) -> Vec<Run> {
+fn next(lattice: &Lattice, runs: &Observations, settings: &Settings) -> Vec<Trial> {
     match after(lattice, runs, settings).next_round().unwrap() {
         Round::Runs(round) => round,
         Round::Finished(_) => Vec::new(),
@@ -121,7 +121,7 @@ proptest! {
         settings.round = 1;
         let runs = observed(&lattice, &places, tilt, 0.45);
         let mut mirrored = Observations::new();
-        let flip = |run: &Run| Run {
+        let flip = |run: &Trial| Trial {
             values: vec![1.0 - run.values[0], run.values[1]],
             seed: run.seed,
         };
@@ -140,7 +140,7 @@ proptest! {
                 prop_assert!((one - two).abs() < 1e-6, "{one} {two}");
             }
         }
-        let margin = |run: &Run| {
+        let margin = |run: &Trial| {
             let indices: Vec<usize> = run.values.iter().map(|it| (it * 16.0) as usize).collect();
             let mut at = map.at(lattice.place(&indices)).to_vec();
             at.sort_by(f64::total_cmp);
@@ -173,7 +173,7 @@ fn a_replay_that_goes_on_from_some_runs_is_the_same() {
 
 /// The runs that are missing when the same rounds are chosen again from the labels that are known:
 /// those of the first round that is not complete.
-fn missing(lattice: &Lattice, known: &Observations, settings: &Settings) -> Vec<Run> {
+fn missing(lattice: &Lattice, known: &Observations, settings: &Settings) -> Vec<Trial> {
     let mut rounds = Rounds::new(lattice.clone(), settings.clone()).unwrap();
     loop {
         let round = match rounds.next_round().unwrap() {
@@ -202,7 +202,7 @@ fn a_stop_inside_a_round_changes_nothing() {
     let settings = Settings::with_budget(68);
     let all = replayed(&lattice, &Observations::new(), &settings);
     assert_eq!(missing(&lattice, &all, &settings), []);
-    let at = |run: &Run| label(&run.values, 0.3, 0.6);
+    let at = |run: &Trial| label(&run.values, 0.3, 0.6);
     // Every third run of the round that is open was made, and the stop is at several rounds.
     for budget in [0, 36, 52, 60] {
         let mut known = Observations::new();

@@ -1,4 +1,4 @@
-//! Whether walls of fixed discs hold what comes.
+//! Whether walls of fixed discs hold the spheres.
 
 use phase::dem::{WallFailure, WeakestWall, timestep};
 use phase::grid::{Axis, describe};
@@ -9,7 +9,7 @@ use serde::Serialize;
 /// The weakest wall of all jobs, and what hits it.
 pub(super) struct Walls<'a> {
     wall: WeakestWall,
-    /// Fastest impact that the scene lets expect (m/s).
+    /// Fastest impact expected in the scene (m/s).
     impact: f64,
     job: &'a Job,
 }
@@ -41,7 +41,7 @@ impl Walls<'_> {
         } = self.wall;
         let at = describe(axes, &self.job.values, self.job.seed);
         let mut text = format!(
-            "hold spheres of radius {radius} m up to {speed:.3} m/s; they may come with {:.3} m/s \
+            "hold spheres of radius {radius} m up to {speed:.3} m/s; they may arrive at {:.3} m/s \
              at {at}",
             self.impact
         );
@@ -62,7 +62,7 @@ impl Walls<'_> {
             };
             let indent = "";
             text += &format!(
-                "\n{indent:14}WARNING: {warning};\n{indent:14}raise the stiffness, or make the \
+                "\n{indent:14}WARNING: {warning};\n{indent:14}increase the stiffness, or make the \
                  spheres lighter or slower"
             );
         }
@@ -86,7 +86,7 @@ pub(super) struct Answer {
     /// radius of that sphere (m).
     holds_up_to: f64,
     radius: f64,
-    /// Fastest impact that the scene lets expect (m/s).
+    /// Fastest impact expected in the scene (m/s).
     fastest_impact: f64,
     hold: bool,
 }

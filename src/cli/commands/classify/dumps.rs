@@ -1,9 +1,9 @@
 //! Labels of a folder of dumps.
 
-use super::{cannot_write, tell_of_labels, tell_of_problems};
 use crate::cli::console::Console;
 use crate::cli::exit::Failure;
 use crate::cli::folders;
+use crate::cli::labels::{tell_of_labels, tell_of_problems};
 use phase::classify::Sieves;
 use phase::scene::Scene;
 use phase::sweep::{Folder, FolderError, Labelled, Labelling, find_dumps};
@@ -17,16 +17,15 @@ pub(super) fn label(
     workers: usize,
     console: &Console,
 ) -> Result<Labelled, Failure> {
-    let scene = Scene::load_base(scene).map_err(Failure::refused)?;
-    sieves.check(&scene).map_err(Failure::refused)?;
+    let scene = Scene::load_base(scene)?;
+    sieves.check(&scene)?;
     let dumps = dumps_in(folder)?;
     let tables = ["labels.csv", "points.csv"];
     folders::refuse_foreign(folder, tables, "use a folder with the dumps alone")?;
-    let labelling =
-        Labelling::of_dumps(&dumps, &scene, sieves, workers).map_err(Failure::failed)?;
+    let labelling = Labelling::of_dumps(&dumps, &scene, sieves, workers)?;
     tell_of_problems(&labelling, console);
     let folder = Folder::new(folder);
-    let labelled = labelling.replace(&folder).map_err(cannot_write)?;
+    let labelled = labelling.replace(&folder)?;
     tell_of_labels(&labelled, &folder, console);
     Ok(labelled)
 }
@@ -34,13 +33,13 @@ pub(super) fn label(
 fn dumps_in(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
     let refuse = |reason: String| {
         Failure::refused(format_args!(
-            "{}: {reason}; make dumps with `phase export ... --to dump`",
-            folder.display()
+            "{reason}; make dumps with `phase export ... --to dump`"
         ))
+        .at(folder)
     };
     if folder.join("sweep.json").exists() {
         return Err(refuse(
-            "a results folder needs no --scene, its labels come from its records".to_owned(),
+            "a results folder is labelled from its records; drop --scene".to_owned(),
         ));
     }
     match find_dumps(folder) {
@@ -50,14 +49,13 @@ fn dumps_in(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
     }
 }
 
-/// The failure to find results in a folder; one of dumps is told what it lacks.
+/// Why a folder has no results; for a folder of dumps the message names the missing option.
 pub(super) fn hint(folder: &Path, error: &FolderError) -> Failure {
     match find_dumps(folder) {
-        Ok(dumps) if !dumps.is_empty() => Failure::refused(format_args!(
-            "{}: holds dumps (.npy) but no sweep.json; say with --scene FILE of which scene they \
-             are",
-            folder.display()
-        )),
+        Ok(dumps) if !dumps.is_empty() => Failure::refused(
+            "holds dumps (.npy) but no sweep.json; give the scene of the dumps with --scene FILE",
+        )
+        .at(folder),
         _ => Failure::refused(error),
     }
 }

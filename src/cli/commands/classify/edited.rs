@@ -1,10 +1,11 @@
 //! Labels of other thresholds, which the folder keeps.
 
-use super::{Summary, jobs_to_label, labelling_of, sweep_with_records, write};
+use super::{jobs_to_label, sweep_with_records};
 use crate::cli::console::Console;
 use crate::cli::exit::Failure;
 use crate::cli::folders::{self, Entry, Undone};
 use crate::cli::format;
+use crate::cli::labels::{Summary, labelling_of, write};
 use phase::store::{self, Lock};
 use phase::sweep::{Folder, Job, Labelling, Learnt, Sweep};
 use std::path::Path;
@@ -32,13 +33,13 @@ pub(super) fn label(
         let labelling = labelling_of(folder, &edit.sweep, &edit.jobs, workers, console)?;
         refuse_problems(folder, &labelling)?;
         let labelled = write(folder, &edit.sweep, labelling, console)?;
-        folder.write_sweep(&edit.sweep).map_err(Failure::failed)?;
-        let refining = folder.read_refining(&edit.sweep).map_err(Failure::failed)?;
+        folder.write_sweep(&edit.sweep)?;
+        let refining = folder.read_refining(&edit.sweep)?;
         if let Ok(Some(learnt)) = Learnt::of(&edit.sweep, refining.as_ref(), &labelled.table)
             && let Some(mut refining) = refining
         {
             refining.widths = phase::refine::widths(&learnt.lattice, &learnt.map);
-            folder.write_refining(&refining).map_err(Failure::failed)?;
+            folder.write_refining(&refining)?;
         }
         Ok(Summary::new(folder, &labelled))
     })
@@ -58,13 +59,13 @@ fn edit(folder: &Folder, sweep: Sweep, edited: &Sweep) -> Result<ToLabel, Failur
     let keys = sweep.keys_of_other_runs(&edited);
     if !keys.is_empty() {
         return Err(Failure::refused(format_args!(
-            "{}: the runs in this folder are not those of the edited sweep; they differ in {}. \
-             Thresholds may change, runs may not: `phase sweep` makes new ones",
-            folder.root().display(),
+            "the edited sweep describes other runs than this folder holds; they differ in {}. Only \
+             thresholds may change: `phase sweep` makes new runs",
             keys.join(", ")
-        )));
+        ))
+        .at(folder.root()));
     }
-    let lock = folder.lock().map_err(Failure::refused)?;
+    let lock = folder.lock()?;
     check_files(folder, &sweep)?;
     Ok(ToLabel {
         jobs: jobs_to_label(folder, &edited)?,
@@ -80,10 +81,10 @@ fn check_files(folder: &Folder, sweep: &Sweep) -> Result<(), Failure> {
         files.extend([folder.progress(), folder.refined(), folder.borders()]);
     }
     let mut files = files.iter();
-    files.try_for_each(|file| store::check_writable(file).map_err(Failure::failed))
+    Ok(files.try_for_each(|file| store::check_writable(file))?)
 }
 
-/// An edited sweep, refined if that of the folder was and the edited one does not say so.
+/// The edited sweep, with the [refine] of the folder's sweep if it has none itself.
 fn refined_alike(edited: &Sweep, sweep: &Sweep) -> Sweep {
     let mut edited = edited.clone();
     if sweep.refine.is_some() && edited.refine.is_none() && edited.refine_by_default().is_ok() {
@@ -100,9 +101,9 @@ fn refuse_problems(folder: &Folder, labelling: &Labelling) -> Result<(), Failure
         return Ok(());
     };
     Err(Failure::failed(format_args!(
-        "{}: {} cannot be labelled, so that this folder stays as it was ({first}); `phase sweep` \
-         makes damaged records again",
-        folder.root().display(),
-        format::count(labelling.problems.len(), "record"),
-    )))
+        "{} cannot be labelled, so this folder was left unchanged ({first}); `phase sweep` \
+         replaces damaged records",
+        format::count(labelling.problems.len(), "record")
+    ))
+    .at(folder.root()))
 }

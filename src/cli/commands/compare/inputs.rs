@@ -59,7 +59,7 @@ pub(super) fn columns(inputs: &[Input], times: Option<[f64; 2]>) -> Result<Vec<C
     let (paths, records): (Vec<&PathBuf>, Vec<&RunRecord>) = of_runs.unzip();
     if times.is_some() && records.is_empty() {
         return Err(Failure::refused(
-            "--times is for records: a table holds what was measured; measure its records again",
+            "--times is for records; compare the records again instead of this table",
         ));
     }
     let family = records.first().map(|record| Family::of(&record.scene));
@@ -99,12 +99,12 @@ pub(super) fn units(inputs: &[Input]) -> Result<Units, Failure> {
     match scenes.iter().find(|(_, other)| other != units) {
         None => Ok(*units),
         Some((path, other)) => Err(Failure::refused(format_args!(
-            "{}: its scene is in units {}, that of {} in units {}; compare runs in the same units",
-            path.display(),
+            "its scene is in units {}, the scene of {} in units {}; compare runs in the same units",
             other.description(),
             first.display(),
             units.description()
-        ))),
+        ))
+        .at(path)),
     }
 }
 
@@ -141,17 +141,17 @@ fn of_family(
 ) -> Result<Vec<Column>, Failure> {
     if times.is_some() {
         return Err(Failure::refused(format_args!(
-            "--times is for drainages: the sieves of a {} look at the whole run",
+            "--times is for drainages; the sieves of a {} use the whole run",
             family.name
         )));
     }
     let named = names(records, paths).into_iter().zip(records);
     let column = |((name, record), path): ((String, &&RunRecord), &&PathBuf)| {
-        let refused = |error: String| Failure::refused(format_args!("{}: {error}", path.display()));
+        let refused = |error: String| Failure::refused(error).at(path);
         let own = Family::of(&record.scene);
         if own != family {
             return Err(refused(format!(
-                "a run of a {}, and the first one is of a {}; compare runs of one kind",
+                "a run of a {}, but the first one is a run of a {}; compare runs of one kind",
                 own.name, family.name
             )));
         }

@@ -1,6 +1,7 @@
-//! The labels and measures of two sweeps beside each other.
+//! Compares the labels and measures of two sweeps.
 
-use super::{Answer, Arguments, Entry, in_columns, table, written};
+use super::{Answer, Arguments, Entry, table};
+use crate::cli::columns::{in_columns, written};
 use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
 use phase::classify::{Agreement, MeasureDifference};
@@ -11,22 +12,20 @@ use phase::sweep::Folder;
 
 pub(super) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
     let [one, other] = &arguments.paths[..] else {
-        return Err(Failure::refused(
-            "folders of sweeps are compared two by two: give two of them, and nothing else",
-        ));
+        return Err(Failure::refused("give exactly two results folders"));
     };
     let unused = [
-        (arguments.times.is_some(), "--times"),
-        (arguments.scene.is_some(), "--scene"),
+        (arguments.measured.window.times.is_some(), "--times"),
+        (arguments.measured.scene.is_some(), "--scene"),
     ];
     if let Some((_, option)) = unused.iter().find(|(given, _)| *given) {
         return Err(Failure::refused(format_args!(
-            "{option} is for records: of folders the labels are compared"
+            "{option} is for records; folders are compared by their labels"
         )));
     }
     let read = |path: &std::path::PathBuf| {
         let labels = Folder::new(path).labels();
-        store::read_labels(&labels).map_err(Failure::refused)
+        store::read_labels(&labels)
     };
     let agreement = Agreement::of(&read(one)?, &read(other)?).map_err(|differ| {
         Failure::refused(format_args!(
@@ -51,13 +50,12 @@ pub(super) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         table::write(path, &rows, &names)?;
         console.file(path);
     }
-    console.answer(&Answer {
+    console.answer_with_files(&Answer {
         records: names.to_vec(),
         rows: rows
             .iter()
             .map(|row| Entry::of_pairs(row, &agreement))
             .collect(),
-        files: console.files(),
     });
     Ok(Exit::Done)
 }
@@ -65,16 +63,16 @@ pub(super) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
 fn sentence(agreement: &Agreement) -> String {
     let (share, [low, high]) = agreement.share();
     let what = match agreement.by_runs {
-        true => "runs of one point and seed",
-        false => "points, by the label of most seeds",
+        true => "runs with the same point and seed",
+        false => "points, by the majority label of their seeds",
     };
     let percent = |share: f64| format!("{:.1}", 100.0 * share);
     let alone = match agreement.alone {
         [0, 0] => String::new(),
-        [one, other] => format!("; {one} are in A alone, {other} in B"),
+        [one, other] => format!("; {one} only in A, {other} only in B"),
     };
     format!(
-        "{} of {} {what} have one label: {} % (95 %: {} to {} %){alone}",
+        "{} of {} {what} have equal labels: {} % (95 %: {} to {} %){alone}",
         agreement.equal,
         agreement.pairs,
         percent(share),

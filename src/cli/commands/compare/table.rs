@@ -18,15 +18,15 @@ pub(super) fn check(names: &[String]) -> Result<(), Failure> {
     match again.find(|(place, name)| names[..*place].contains(name)) {
         None => Ok(()),
         Some((_, name)) => Err(Failure::refused(format_args!(
-            "two records are called `{name}`, and a table tells them apart by name; give each a \
-             `--label` of its own"
+            "two records are called `{name}`, and a table needs distinct names; give each record a \
+             --label"
         ))),
     }
 }
 
 pub(super) fn write(path: &Path, rows: &[Row], names: &[String]) -> Result<(), Failure> {
     let text = written(rows, names).map_err(Failure::failed)?;
-    store::write_atomic(path, &text).map_err(Failure::failed)
+    Ok(store::write_atomic(path, &text)?)
 }
 
 fn written(rows: &[Row], names: &[String]) -> Result<Vec<u8>, csv::Error> {
@@ -70,7 +70,7 @@ pub(super) fn read(path: &Path) -> Result<Vec<Column>, Failure> {
         let columns = COLUMNS.join(",");
         return Err(refuse(
             1,
-            &format!("no table of `phase compare`: expected `{columns}`"),
+            &format!("not a table of `phase compare`: expected `{columns}`"),
         ));
     }
     let mut columns: Vec<Column> = Vec::new();
@@ -85,7 +85,7 @@ pub(super) fn read(path: &Path) -> Result<Vec<Column>, Failure> {
         };
         let [value, half_width] = [number(3, f64::NAN)?, number(4, f64::INFINITY)?];
         if half_width < 0.0 {
-            return Err(refuse(line, "a half width is not negative"));
+            return Err(refuse(line, "a half width cannot be negative"));
         }
         let value = (!value.is_nan()).then_some(Estimate { value, half_width });
         let name = &record[2];
@@ -101,13 +101,13 @@ pub(super) fn read(path: &Path) -> Result<Vec<Column>, Failure> {
         let quantity = [&record[0], &record[1]].map(str::to_owned);
         let values = &mut columns[place].values;
         if values.iter().any(|(it, _)| *it == quantity) {
-            let reason = format!("a second `{}` of `{name}`; keep one of them", quantity[0]);
+            let reason = format!("duplicate `{}` of `{name}`; keep one", quantity[0]);
             return Err(refuse(line, &reason));
         }
         values.push((quantity, value));
     }
     match columns.is_empty() {
-        true => Err(refuse(1, "it holds no numbers")),
+        true => Err(refuse(1, "the table is empty")),
         false => Ok(columns),
     }
 }

@@ -55,15 +55,13 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         _ => arguments.name.with_added_extension("toml"),
     };
     if arguments.kind != Kind::Sweep && arguments.scene.is_some() {
-        return Err(Failure::refused(
-            "a scene starts from no other; `--scene` goes with `phase new sweep`",
-        ));
+        return Err(Failure::refused("--scene is for `phase new sweep` only"));
     }
     if path.exists() && !arguments.force {
-        return Err(Failure::refused(format_args!(
-            "{}: the file is there already; choose another name, or replace it with `--force`",
-            path.display()
-        )));
+        return Err(Failure::refused(
+            "the file exists already; choose another name, or replace it with --force",
+        )
+        .at(path));
     }
     folders::make_for(&path)?;
     let text = match (arguments.kind, &arguments.scene) {
@@ -73,13 +71,13 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         (Kind::Sweep, Some(scene)) => sweep_of_file(&from_folder_of(&path, scene))?,
         (Kind::Sweep, None) => sweep_of_table(),
     };
-    store::write_atomic(&path, text.as_bytes()).map_err(Failure::failed)?;
+    store::write_atomic(&path, text.as_bytes())?;
     console.file(&path);
     if arguments.scene.is_some()
         && let Err(error) = phase::sweep::load(&path)
     {
         console.warning(format_args!(
-            "the sweep does not go with its scene yet; edit it first: {error}"
+            "the sweep does not fit its scene yet; edit it first: {error}"
         ));
     }
     let kind = match arguments.kind {
@@ -87,8 +85,8 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         Kind::Sweep => "sweep",
     };
     console.note(format_args!(
-        "for help from an editor: `phase schema {kind} > {kind}.json`, and `#:schema {kind}.json` \
-         as the first line of the file"
+        "for help from an editor: `phase generate schema {kind} > {kind}.json`, and `#:schema \
+         {kind}.json` as the first line of the file"
     ));
     Ok(Exit::Done)
 }

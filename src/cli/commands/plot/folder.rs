@@ -1,8 +1,10 @@
 //! Figures of a results folder.
 
-use super::{ANOTHER_FOLDER, default_figures, draw, name_all, refused_or_failed};
+use super::name_all;
 use crate::cli::console::Console;
 use crate::cli::exit::Failure;
+use crate::cli::figures::{default_figures, draw};
+use crate::cli::folders::ANOTHER_FOLDER;
 use crate::cli::{folders, format};
 use phase::classify::LabelTable;
 use phase::plot;
@@ -66,7 +68,7 @@ impl FolderAnswer {
         console: &Console,
     ) -> Result<Self, Failure> {
         let root = folder.root();
-        let sweep = folder.read_sweep().map_err(Failure::failed)?;
+        let sweep = folder.read_sweep()?;
         let table = read_labels(folder)?.with_variants(sweep.variants());
         let names: Vec<&str> = match asked {
             [] => default_figures(&sweep, &table, console),
@@ -104,14 +106,14 @@ pub(super) fn read_labels(folder: &Folder) -> Result<LabelTable, Failure> {
     let (root, path) = (folder.root(), folder.labels());
     if !path.exists() {
         return Err(Failure::refused(format_args!(
-            "{}: there are no labels yet; run `phase classify {}` first",
-            path.display(),
+            "no labels yet; run `phase classify {}` first",
             root.display()
-        )));
+        ))
+        .at(path));
     }
     store::read_labels(&path).map_err(|error| {
         Failure::failed(format_args!(
-            "{error}; `phase classify {}` makes it anew",
+            "{error}; `phase classify {}` rewrites it",
             root.display()
         ))
     })
@@ -137,7 +139,7 @@ fn print_fits(
         program: &program,
     });
     let entries = lines
-        .map_err(|error| refused_or_failed(folder, error))?
+        .map_err(|error| Failure::from(error).at(folder.root()))?
         .into_iter()
         .map(|line| FitEntry {
             folder: folder.root().display().to_string(),

@@ -1,8 +1,10 @@
 //! Figures of the records of single runs.
 
-use super::{Arguments, Listed, name_all, write};
+use super::{Arguments, Listed, name_all};
 use crate::cli::console::Console;
 use crate::cli::exit::Failure;
+use crate::cli::figures::write;
+use crate::cli::options::Measured;
 use crate::cli::{folders, runs};
 use phase::classify::{DRAINAGE, Family};
 use phase::plot::{self, About, PlotError, Svg};
@@ -20,7 +22,7 @@ pub(super) struct RecordFigure {
     draw: fn(&RunRecord) -> Result<Svg, PlotError>,
 }
 
-/// The figures that one record alone has: those of what only some records hold.
+/// Figures of a single record, of data that only some records hold.
 pub(super) const OF_ONE: [RecordFigure; 2] = [
     RecordFigure {
         name: "tracks",
@@ -36,7 +38,7 @@ pub(super) const OF_ONE: [RecordFigure; 2] = [
     },
 ];
 
-/// Those that are drawn of a drainage if none is asked for; of other runs those of [`OF_ONE`].
+/// The default figures of a drainage; the default figures of other runs are [`OF_ONE`].
 const DEFAULT_OF_DRAINAGE: [&str; 2] = ["surface-angle", "radial-distribution"];
 
 /// The figure that any record of discrete elements has, whatever its family.
@@ -55,7 +57,7 @@ fn of_runs(record: &RunRecord) -> impl Iterator<Item = About> {
 
 /// What can be drawn of a record.
 pub(super) fn list(path: &Path) -> Result<Vec<Listed>, Failure> {
-    let record = store::read_record(path).map_err(Failure::refused)?;
+    let record = store::read_record(path)?;
     let records = std::slice::from_ref(&record);
     let is_drawn =
         |figure: &About| plot::draw_records(figure.name, records, None, &[], &[]).is_ok();
@@ -95,15 +97,15 @@ pub(super) fn draw(
 ) -> Result<Vec<String>, Failure> {
     if let Some(point) = arguments.points.first() {
         return Err(Failure::refused(format_args!(
-            "--point {point} is for a results folder: a record is of one run"
+            "--point {point} is for a results folder; a record holds one run"
         )));
     }
-    let records: Vec<RunRecord> = runs::read(paths, arguments.scene.as_deref())?;
+    let records: Vec<RunRecord> = runs::read(paths, arguments.measured.scene.as_deref())?;
     let (Some(first), Some(record)) = (paths.first(), records.first()) else {
         return Ok(Vec::new());
     };
     let data = arguments.data.iter().map(|path| store::read_data_set(path));
-    let data: Vec<DataSet> = data.collect::<Result<_, _>>().map_err(Failure::refused)?;
+    let data: Vec<DataSet> = data.collect::<Result<_, _>>()?;
     let names = names(record, arguments)?;
     let beside = first.parent().unwrap_or(Path::new(""));
     let folder = arguments.out.as_deref().unwrap_or(beside);
@@ -122,15 +124,9 @@ pub(super) fn draw(
     folders::refuse_foreign(
         folder,
         files,
-        "choose another folder or name with --out or --name",
+        "choose another folder with --out or another name with --name",
     )?;
-    let failed = |error: PlotError| {
-        let text = format!("{}: {error}", first.display());
-        match error.is_of_request() {
-            true => Failure::refused(text),
-            false => Failure::failed(text),
-        }
-    };
+    let failed = |error: PlotError| Failure::from(error).at(first);
     let mut missing = None;
     let mut failures = Vec::new();
     for name in &names {
@@ -167,13 +163,15 @@ fn image(
 ) -> Result<Svg, PlotError> {
     let of_one = OF_ONE.iter().find(|figure| figure.name == name);
     match (of_one, records) {
-        (Some(figure), [_]) if arguments.times.is_some() => Err(PlotError::NoTimes(figure.name)),
+        (Some(figure), [_]) if arguments.measured.window.times.is_some() => {
+            Err(PlotError::NoTimes(figure.name))
+        }
         (Some(figure), [_]) if !data.is_empty() => Err(PlotError::NoData(figure.name)),
         (Some(figure), [record]) => (figure.draw)(record),
         (Some(figure), _) => Err(PlotError::OfOneRecord(figure.name)),
         (None, _) => {
-            let Arguments { times, labels, .. } = arguments;
-            plot::draw_records(name, records, *times, labels, data)
+            let Measured { window, labels, .. } = &arguments.measured;
+            plot::draw_records(name, records, window.times, labels, data)
         }
     }
 }

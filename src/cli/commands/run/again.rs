@@ -31,7 +31,7 @@ impl Before {
         }
         let refuse = |error: StoreError| {
             Failure::refused(format_args!(
-                "{error}; the run could not be compared with it. `phase sweep` makes it again"
+                "{error}; the run cannot be compared with it. `phase sweep` replaces it"
             ))
         };
         let record = store::read_record(path).map_err(refuse)?;
@@ -46,7 +46,7 @@ impl Original {
     /// The job of that point in a results folder.
     pub(super) fn find(folder: &Path, point: &str, console: &Console) -> Result<Self, Failure> {
         let folder = one_folder(folder)?;
-        let sweep = folder.read_sweep().map_err(Failure::failed)?;
+        let sweep = folder.read_sweep()?;
         let refuse = |reason: String| Failure::refused(format_args!("--point: {reason}"));
         let point = match point {
             "" => Selection::default(),
@@ -58,28 +58,28 @@ impl Original {
         if let Some(axis) = chosen.axes.iter().find(|axis| axis.values.len() > 1) {
             let values = axis.words();
             return Err(refuse(format!(
-                "say which run: add {}=..., one of {}",
+                "add {}=... to choose a run; values: {}",
                 axis.name,
                 values.join(", ")
             )));
         }
-        let refining = folder.read_refining(&sweep).map_err(Failure::failed)?;
+        let refining = folder.read_refining(&sweep)?;
         let jobs = chosen.jobs_so_far(refining.as_ref());
-        let mut jobs = jobs.map_err(Failure::refused)?;
+        let mut jobs = jobs?;
         if jobs.is_empty() {
             // A point at which a refined sweep has no run.
             let whole = Sweep {
                 refine: None,
                 ..chosen.clone()
             };
-            jobs = whole.jobs().map_err(Failure::refused)?;
+            jobs = whole.jobs()?;
         }
         if jobs.is_empty() {
             return Err(refuse("the sweep has no seeds".to_owned()));
         }
         if jobs.len() > 1 {
             console.note(format_args!(
-                "the point has {} seeds; taking the first, seed={}",
+                "the point has {} seeds; using the first, seed={}",
                 jobs.len(),
                 jobs[0].seed
             ));
@@ -115,10 +115,10 @@ impl Original {
             a.is_ok_and(|a| b.is_ok_and(|b| a == b))
         };
         if same(path, &self.record()) {
-            return Err(Failure::refused(format_args!(
-                "{}: this is the sweep's own record; choose another name with --out",
-                path.display()
-            )));
+            return Err(Failure::refused(
+                "this is the sweep's own record; choose another name with --out",
+            )
+            .at(path));
         }
         Ok(())
     }
@@ -150,8 +150,8 @@ impl Original {
         let by =
             |program: &Program| format!("phase {}, commit {}", program.version, program.commit);
         Err(Failure::failed(format_args!(
-            "the run differs from the sweep's record {}: that one is by {}, this one by {}. \
-             Records of another program may differ; run the sweep again to have one kind",
+            "the run differs from the sweep's record {}, which was made by {}; this run was made \
+             by {}. Builds may differ in bits; run the sweep again to compare runs of one build",
             path.display(),
             by(&before.program),
             by(&again.program)
@@ -161,14 +161,14 @@ impl Original {
 
 /// The results folder at that path.
 fn one_folder(path: &Path) -> Result<Folder, Failure> {
-    let mut folders = Folder::find(path).map_err(Failure::refused)?;
+    let mut folders = Folder::find(path)?;
     if folders.len() > 1 {
         let names: Vec<String> = folders
             .iter()
             .map(|folder| folder.root().display().to_string())
             .collect();
         return Err(Failure::refused(format_args!(
-            "{} holds several results folders; give one of {}",
+            "{} holds several results folders; give one of them: {}",
             path.display(),
             names.join(", ")
         )));

@@ -13,7 +13,7 @@ use phase::simulation::Counts;
 use std::ops::ControlFlow;
 use std::sync::atomic::Ordering;
 
-/// A run that came to its end.
+/// A run that ended.
 pub(super) struct Ran {
     pub(super) record: RunRecord,
     /// How long it took now (s).
@@ -33,7 +33,7 @@ pub(super) fn run(
 ) -> Result<Option<Ran>, Failure> {
     let stop = interrupt::stop_on_signal(console)?;
     let mut run = Run::new(scene).map_err(Failure::failed)?;
-    run.use_threads(threads).map_err(Failure::failed)?;
+    run.use_threads(threads)?;
     let resumed = begin(&mut run, checkpoints, resume, console)?;
     let resumed_from = resumed.then(|| run.time());
     let model = run::model_of(scene);
@@ -69,7 +69,9 @@ pub(super) fn run(
     let mut warn = |error| {
         // The next ones fail in the same way, most likely.
         if !std::mem::replace(&mut warned, true) {
-            progress.note(format_args!("no checkpoint, the run goes on: {error}"));
+            progress.note(format_args!(
+                "cannot write a checkpoint; the run continues: {error}"
+            ));
         }
     };
     let ending = checkpoints.run(run, &mut control, &mut warn);
@@ -84,13 +86,13 @@ pub(super) fn run(
             }));
         }
         Ending::Interrupted => console.note(format_args!(
-            "interrupted at frame {frame} of {}; the same command with --resume goes on from there \
-             ({path})",
+            "interrupted at frame {frame} of {}; the same command with --resume continues from \
+             there ({path})",
             scene.time.frames()
         )),
         Ending::EarlierKept => console.note(format_args!(
-            "interrupted; nothing was stored. The checkpoint that was there still is: --resume \
-             goes on from it ({path})"
+            "interrupted; nothing was stored. The earlier checkpoint is kept: --resume continues \
+             from it ({path})"
         )),
         Ending::Lost(error) => return Err(Failure::failed(error)),
     }
@@ -108,33 +110,34 @@ fn begin(
     if !resume {
         if checkpoints.path().exists() {
             console.note(format_args!(
-                "{path} is there, the checkpoint of an interrupted run, and --resume would go on \
-                 from it; starting from the beginning, which replaces it"
+                "starting from the beginning, which replaces the checkpoint {path} of an \
+                 interrupted run; --resume would continue from it"
             ));
         }
         return Ok(false);
     }
     let resumed = checkpoints.restore(run).map_err(|error| {
         Failure::refused(format_args!(
-            "{error}; without --resume the run starts from the beginning and replaces it"
+            "{error}; without --resume the run starts from the beginning and replaces the \
+             checkpoint"
         ))
     })?;
     if resumed {
         console.note(format_args!(
-            "going on at {}, frame {} of {}, from {path}",
+            "continuing at {}, frame {} of {}, from {path}",
             format::time(run.time()),
             run.progress().frame,
             run.progress().frames
         ));
     } else {
         console.note(format_args!(
-            "there is no checkpoint {path}; starting from the beginning"
+            "no checkpoint {path}; starting from the beginning"
         ));
     }
     Ok(resumed)
 }
 
-/// What goes on in a run where spheres come and go.
+/// The phase of a run where spheres enter and leave.
 fn phase_of(counts: &Counts) -> String {
     let Counts {
         all,
@@ -144,9 +147,9 @@ fn phase_of(counts: &Counts) -> String {
         ..
     } = *counts;
     if released < all {
-        format!("filling, {released} of {all} are in")
+        format!("filling, {released} of {all} inside")
     } else if is_closed {
-        format!("coming to rest, all {all} are in")
+        format!("coming to rest, all {all} inside")
     } else {
         format!("draining, {discharged} of {all} left")
     }

@@ -1,16 +1,16 @@
 //! The folder of a study, its runs with progress, its failures.
 
-use crate::cli::commands::plot::ANOTHER_FOLDER;
 use crate::cli::console::{Console, name_first};
 use crate::cli::exit::{Exit, Failure};
+use crate::cli::folders::ANOTHER_FOLDER;
+use crate::cli::options::Workers;
 use crate::cli::progress::{Progress, Work};
-use crate::cli::values;
 use crate::cli::{folders, forecast, format, interrupt, job};
 use phase::grid::describe;
 use phase::record::RunRecord;
 use phase::store::{self, Lock};
 use phase::study::comparison::{Comparison, KnownRuns, StudyReport, StudyRuns};
-use phase::sweep::{Event, Folder, FolderError, Job, LocalThreads, Wishes, work};
+use phase::sweep::{Event, Folder, FolderError, Job, LocalThreads, Wishes};
 use serde::Serialize;
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
@@ -19,29 +19,25 @@ use std::time::Duration;
 
 /// Where and how the runs of a study are made.
 #[derive(clap::Args)]
-pub(crate) struct Options {
+pub(super) struct Options {
     /// The results folder [default: results/STUDY/NAME, with the name of the study or command, and
     /// that of the file without .toml].
     #[arg(short, long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
-    /// Runs at the same time [default: all cores].
-    #[arg(short, long, value_name = "N", value_parser = values::at_least_one)]
-    pub(super) jobs: Option<usize>,
+    #[command(flatten)]
+    workers: Workers,
     /// Make every run again, whatever the table holds.
     #[arg(short, long)]
     pub(super) force: bool,
     /// Draw no figure.
     #[arg(long)]
     pub(super) no_plot: bool,
-    /// Print the result as one JSON object (docs/json.md) instead of text.
-    #[arg(long)]
-    pub(crate) json: bool,
 }
 
 impl Options {
     /// Number of runs at the same time.
     pub(super) fn workers(&self) -> usize {
-        self.jobs.unwrap_or_else(work::default_workers)
+        self.workers.count()
     }
 }
 

@@ -38,7 +38,8 @@ impl Study for StabilityStudy {
 
 /// How an integrator did, in a line.
 fn line(tried: &Tried) -> String {
-    let counts = NUMERICS.labels.iter().filter_map(|label| {
+    let labels = NUMERICS.labels().into_iter();
+    let counts = labels.filter_map(|label| {
         let count = tried.labels.get(label.name)?;
         Some(format!("{count} {}", label.name))
     });

@@ -1,13 +1,11 @@
 //! The rounds of a refined sweep, as people see them.
 
 use super::rounds::{Part, Rounds, Run, tell_of_plan};
-use crate::cli::commands::plot;
 use crate::cli::exit::Failure;
+use crate::cli::figures;
 use crate::cli::{format, refined};
 use phase::refine::{Finish, Settings};
-use phase::sweep::{
-    Plan, Pool, PoolError, Refinement, RefinementError, Report, RoundsError, Sweep, WatchRounds,
-};
+use phase::sweep::{Plan, Pool, Refinement, Report, Sweep, WatchRounds};
 use std::time::{Duration, Instant};
 
 /// Time between two notes while rounds are chosen.
@@ -26,7 +24,7 @@ impl Rounds<'_> {
         let report = done.report;
         let done_before = done.plan.labelled().count();
         let run = Run {
-            done_before: done_before.saturating_sub(report.finished),
+            done_before: done_before.saturating_sub(report.finished + report.elsewhere),
             report,
             ..watcher.run.unwrap_or_default()
         };
@@ -69,7 +67,7 @@ struct Watcher<'a> {
     rounds: &'a Rounds<'a>,
     /// What was run so far, but for the report.
     run: Option<Run>,
-    /// When the choosing of rounds was told last.
+    /// When progress was last reported.
     told: Instant,
 }
 
@@ -93,19 +91,19 @@ impl WatchRounds for Watcher<'_> {
         Ok(report)
     }
 
-    /// Says now and then how far the choosing of rounds is whose runs are there already.
+    /// Reports progress while replaying rounds whose runs already exist.
     fn known(&mut self, refinement: &Refinement) {
         if self.told.elapsed() >= BETWEEN_NOTES {
             self.told = Instant::now();
             self.rounds.console.note(format_args!(
-                "round {} chosen again: {}",
+                "round {} replayed: {}",
                 refinement.rounds(),
                 format::count(refinement.runs(), "run")
             ));
         }
     }
 
-    /// Says what a round has told, and draws the figure anew.
+    /// Prints what a round has shown, and updates the figure.
     fn learnt(&mut self, pool: &Pool<'_>, refinement: &Refinement) -> Result<(), Failure> {
         if let Some(settings) = &pool.sweep.refine {
             self.rounds.console.note(format_args!(
@@ -117,29 +115,9 @@ impl WatchRounds for Watcher<'_> {
             ));
         }
         if self.rounds.draws && refinement.runs() > 0 {
-            plot::draw_round(pool.folder, pool.sweep, refinement.table())?;
+            figures::draw_round(pool.folder, pool.sweep, refinement.table())?;
         }
         Ok(())
-    }
-}
-
-impl From<PoolError> for Failure {
-    fn from(error: PoolError) -> Self {
-        match error {
-            PoolError::Foreign(_) => Self::refused(error),
-            _ => Self::failed(error),
-        }
-    }
-}
-
-impl From<RoundsError> for Failure {
-    fn from(error: RoundsError) -> Self {
-        match error {
-            RoundsError::Pool(error) => error.into(),
-            RoundsError::Refinement(RefinementError::Threads(_)) => Self::failed(error),
-            RoundsError::Refinement(_) => Self::refused(error),
-            RoundsError::Folder(_) | RoundsError::Store(_) => Self::failed(error),
-        }
     }
 }
 
@@ -147,7 +125,8 @@ impl From<RoundsError> for Failure {
 pub(super) fn check(settings: &Settings, seeds: &[u64]) -> Result<(), Failure> {
     if seeds.len() > 1 {
         return Err(Failure::refused(format_args!(
-            "a refined sweep takes one --seed, the first; each point has at most {} from there on",
+            "a refined sweep takes one --seed, the first one; each point then uses at most {} from \
+             there on",
             format::count(settings.replicates as usize, "seed")
         )));
     }

@@ -34,7 +34,7 @@ impl Rounds<'_> {
         let plan = if self.force {
             Plan::afresh(jobs)
         } else {
-            Plan::new(self.folder, jobs, self.workers).map_err(Failure::failed)?
+            Plan::new(self.folder, jobs, self.workers)?
         };
         tell_of_plan(&plan, self.console);
         let run = self.with_pool(sweep, |pool| self.run_part(&plan, pool, Part::default()))?;
@@ -44,16 +44,14 @@ impl Rounds<'_> {
     /// Calls `act` with the pool that runs the jobs of a sweep.
     pub(super) fn with_pool<T>(&self, sweep: &Sweep, act: impl FnOnce(&Pool<'_>) -> T) -> T {
         act(&Pool {
-            folder: self.folder,
-            sweep,
-            backend: &LocalThreads::new(self.workers),
             workers: self.workers,
             checkpoint_interval: self.checkpoint_interval,
             wishes: Wishes {
                 stop: self.stop,
                 resume: !self.force,
-                watch: &|_| {},
+                ..Wishes::default()
             },
+            ..Pool::new(self.folder, sweep, &LocalThreads::new(self.workers))
         })
     }
 
@@ -71,7 +69,7 @@ impl Rounds<'_> {
 /// What a plan is part of.
 #[derive(Default)]
 pub(super) struct Part {
-    /// What stands before its progress; may be empty.
+    /// Printed before its progress; may be empty.
     pub(super) head: String,
     /// Most jobs of the whole, if these are more than those of the plan.
     pub(super) jobs: Option<usize>,
@@ -81,7 +79,7 @@ pub(super) struct Part {
 #[derive(Default)]
 pub(super) struct Run {
     pub(super) report: Report,
-    /// Jobs whose record, or label that counts without one, was there before.
+    /// Jobs that had a record before, or a label that counts without one.
     pub(super) done_before: usize,
     pub(super) seconds: f64,
     pub(super) workers: usize,
@@ -179,9 +177,9 @@ impl Run {
             format::count(self.workers, "worker"),
         );
         for (number, what) in [
-            (*resumed, "of them from a checkpoint"),
+            (*resumed, "of them resumed from a checkpoint"),
             (self.done_before, "done before"),
-            (self.report.elsewhere, "made by another process"),
+            (self.report.elsewhere, "run by another process"),
             (self.unstable.len(), "unstable"),
             (failures.len(), "failed"),
             (*left, "left"),
@@ -214,7 +212,9 @@ impl Run {
             console.error(format_args!("failed: {name}"));
         });
         if let Some(error) = &self.report.unnoted {
-            console.error(format_args!("the table of failed jobs is missing: {error}"));
+            console.error(format_args!(
+                "the table of failed jobs could not be written: {error}"
+            ));
         }
         Ok(())
     }
@@ -234,11 +234,11 @@ pub(super) fn tell_of_plan(plan: &Plan, console: &Console) {
     for (job, standing) in &plan.jobs {
         match standing {
             Standing::Damaged(reason) => console.note(format_args!(
-                "run again: the record of job {} cannot be used: {reason}",
+                "running job {} again: its record cannot be used: {reason}",
                 job.id
             )),
             Standing::OtherOutput => console.detail(format_args!(
-                "run again: the record of job {} was made with other output settings",
+                "running job {} again: its record was made with other output settings",
                 job.id
             )),
             Standing::Missing | Standing::Done(_) | Standing::Labelled | Standing::Foreign(_) => {}

@@ -34,7 +34,7 @@ pub(super) fn animate(
     let shown = evenly(record.sound_states(), PICTURES);
     if let (States::Snapshots(_), true) = (record.states(), shown.len() < PICTURES / 2) {
         console.note(
-            "few states make a jerky animation: store more of them with `phase run \
+            "few states make a jerky animation: store more states with `phase run \
              --snapshot-interval 0.05`",
         );
     }
@@ -59,31 +59,29 @@ pub(super) fn animate(
     let mut width = sheets.fitted(1, asked, ANIMATION_HEIGHT);
     let pictures = format::count(shown.len(), "picture");
     loop {
-        console.note(format_args!("draws {pictures} of {width} pixels' width"));
+        console.note(format_args!("drawing {pictures}, {width} pixels wide"));
         let drawn = on_all_cores(&shown, |state| sheets.picture_of(state, width))?;
         let animation = Animation::new(&drawn, delay);
         let bytes = match kind {
-            Kind::Gif => animation.to_gif().map_err(Failure::failed)?,
+            Kind::Gif => animation.to_gif()?,
             Kind::Png => {
                 let texts = words::texts(record);
-                animation.to_apng(&texts).map_err(Failure::failed)?
+                animation.to_apng(&texts)?
             }
         };
         let size = format::bytes(bytes.len() as f64);
         if bytes.len() <= LARGEST || width < 80 {
             if width < asked {
                 console.note(format_args!(
-                    "{width} instead of {asked} pixels wide: an animation is at most \
+                    "panels are {width} pixels wide instead of {asked}: an animation is at most \
                      {ANIMATION_HEIGHT} pixels high and {} large",
                     format::bytes(LARGEST as f64)
                 ));
             }
-            console.note(format_args!("{pictures} of {width} pixels' width, {size}"));
+            console.note(format_args!("{pictures}, {width} pixels wide, {size}"));
             return Ok(bytes);
         }
-        console.note(format_args!(
-            "{size} are too much: draws them again, smaller"
-        ));
+        console.note(format_args!("{size} is too large; drawing again, smaller"));
         // The size goes with the area.
         let shrink = (LARGEST as f64 / bytes.len() as f64).sqrt().min(0.95);
         width = (0.97 * shrink * width as f64) as usize;
@@ -108,7 +106,7 @@ fn leave_out_arrivals(
     let later = Sheets::new(&arrived, arguments)?.top();
     if later < sheets.top() {
         console.note(format_args!(
-            "shows up to z = {later:.3} m, where all spheres are after the first quarter"
+            "shows up to z = {later:.3} m, which holds all spheres after the first quarter"
         ));
         sheets.show_up_to(later);
     }
@@ -134,13 +132,13 @@ pub(super) fn each(
             sheets.picture_of(state, width).to_png(&texts)
         })?;
         for (index, file) in (AT_ONCE * chunk..).zip(files) {
-            let bytes = file.map_err(Failure::failed)?;
+            let bytes = file?;
             let path = folder.join(store::frame_name(index, "png"));
-            store::write_atomic(&path, &bytes).map_err(Failure::failed)?;
+            store::write_atomic(&path, &bytes)?;
         }
     }
     console.note(format_args!(
-        "{} of {width} pixels' width",
+        "{}, {width} pixels wide",
         format::count(shown.len(), "picture")
     ));
     Ok(())

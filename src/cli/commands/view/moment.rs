@@ -88,8 +88,8 @@ fn nearest<'a>(
         .filter(|_| time >= first - 0.5 * interval && time <= last + 0.5 * interval)
         .ok_or_else(|| {
             Failure::refused(format_args!(
-                "there is no state at t = {time} {unit}: the record holds them from {} to {} \
-                 {unit} ({} frames of {interval} {unit})",
+                "no state at t = {time} {unit}: the record holds states from {} to {} {unit} ({} \
+                 frames of {interval} {unit})",
                 brief(record, first),
                 brief(record, last),
                 record.observations.frames()
@@ -133,8 +133,8 @@ fn since<'a>(
                 )
             });
             Failure::refused(format_args!(
-                "there is no state after `{}` ({} {unit}){until}: store more of them with `phase \
-                 run --snapshot-interval`",
+                "no state after `{}` ({} {unit}){until}: store more states with `phase run \
+                 --snapshot-interval`",
                 key(kind),
                 brief(record, milestone.time)
             ))

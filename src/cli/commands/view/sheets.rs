@@ -1,4 +1,4 @@
-//! The panels of one run, or of several beside each other.
+//! The panels of one run, or of several side by side.
 
 use super::{Arguments, Color, words};
 use crate::cli::console::Console;
@@ -20,7 +20,7 @@ pub(super) struct Run<'a> {
     pub(super) origin: f64,
     /// What the picture calls it.
     pub(super) label: Option<String>,
-    /// What tells it from other runs, beside title and place in a sweep.
+    /// What distinguishes it from other runs, apart from title and place in a sweep.
     pub(super) differs: Vec<String>,
 }
 
@@ -67,15 +67,14 @@ impl<'a> Sheets<'a> {
         let mut sheets: Vec<Sheet> = runs.iter().map(|run| sheet(run, color(run))).collect();
         if sheets.iter().any(|it| it.flat.is_some()) && sheets.iter().any(|it| it.flat.is_none()) {
             return Err(Failure::refused(
-                "scenes of discs are drawn flat, others from two sides: draw them apart",
+                "discs are drawn flat, spheres from two sides: draw them in separate pictures",
             ));
         }
         if sheets.iter().any(|it| it.flat.is_some())
             && (sides != Sides::Both || arguments.color == Color::PackingFraction)
         {
             return Err(Failure::refused(
-                "scenes of discs are drawn flat: they have neither --cut nor --window, nor packing \
-                 fractions",
+                "discs are drawn flat: --cut, --window and packing fractions do not apply",
             ));
         }
         if runs.len() == 1 {
@@ -158,7 +157,7 @@ impl<'a> Sheets<'a> {
         self.sheets[run].panel(state, width, &caption)
     }
 
-    /// Panels beside each other, with all the words.
+    /// Panels side by side, with all the words.
     pub(super) fn picture(&self, panels: &[Image]) -> Image {
         self.sheets[0].picture(panels)
     }
@@ -190,7 +189,7 @@ pub(super) fn on_all_cores<T: Sync, U: Send + Sync>(
     items: &[T],
     draw: impl Fn(&T) -> U + Sync,
 ) -> Result<Vec<U>, Failure> {
-    work::map(work::default_workers(), items, draw).map_err(Failure::failed)
+    Ok(work::map(work::default_workers(), items, draw)?)
 }
 
 /// Ends of what is seen along x and z (m), if the command line says them.
@@ -201,7 +200,7 @@ fn window(numbers: &[f64]) -> Result<Option<[[f64; 2]; 2]>, Failure> {
             Ok(Some([[left, right], [low, high]]))
         }
         _ => Err(Failure::refused(
-            "--window takes four numbers: the least and the largest x, then the same of z, such as \
+            "--window takes four numbers: least and largest x, least and largest z, such as \
              -15,15,0,40",
         )),
     }

@@ -42,7 +42,7 @@ impl Target {
         let path = arguments.animate.as_ref().or(arguments.out.as_ref());
         if arguments.records.len() > 1 && path.is_none() {
             return Err(Failure::refused(
-                "name the picture of several records with --out",
+                "several records need --out for the name of the picture",
             ));
         }
         let path = path.cloned();
@@ -52,16 +52,12 @@ impl Target {
             (Some("png"), _) | (Some("apng"), Some(_)) => Kind::Png,
             (Some("gif"), Some(_)) => Kind::Gif,
             (_, Some(_)) => {
-                return Err(Failure::refused(format_args!(
-                    "{}: an animation is a .png (APNG) or a .gif",
-                    path.display()
-                )));
+                return Err(
+                    Failure::refused("an animation must be a .png (APNG) or .gif file").at(path),
+                );
             }
             (_, None) => {
-                return Err(Failure::refused(format_args!(
-                    "{}: a picture is a .png; give it such a name",
-                    path.display()
-                )));
+                return Err(Failure::refused("a picture must be a .png file").at(path));
             }
         };
         Ok(Self { path, kind })
@@ -77,7 +73,7 @@ impl Target {
         let target = self.path.canonicalize().ok();
         let is_target = |record: &PathBuf| record.canonicalize().ok() == target;
         if target.is_some() && records.iter().any(is_target) {
-            return refused("this is the record itself; give the picture another name");
+            return refused("this is the record itself; choose another name for the picture");
         }
         if self.path.is_dir() {
             return refused("this is a folder; name a file in it");

@@ -36,7 +36,7 @@ pub(super) fn place(record: &RunRecord) -> String {
     named.map(|(_, words)| words).collect::<Vec<_>>().join(", ")
 }
 
-/// The keys that tell of a run's place in a sweep, with their values.
+/// The keys that give a run's place in a sweep, with their values.
 fn named(record: &RunRecord) -> Vec<(&'static str, String)> {
     let scene = &record.scene;
     let mut named = vec![("spheres.count", format!("n = {}", record.radius.len()))];
@@ -66,8 +66,8 @@ fn millimetres(length: f64) -> String {
 /// Letters of a line of a caption that has several.
 const LINE: usize = 36;
 
-/// What tells each of several runs from the others, in lines; nothing where their titles and places
-/// do.
+/// What distinguishes each of several runs from the others, in lines; nothing if their titles and
+/// places do.
 pub(super) fn differences(records: &[&RunRecord]) -> Vec<Vec<String>> {
     let titles: BTreeSet<&str> = records
         .iter()
