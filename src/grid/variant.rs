@@ -148,7 +148,10 @@ pub(crate) fn check_change(change: &Change, axes: &[Axis]) -> Result<(), Vec<Pro
         if !axes.iter().any(|axis| axis.name == *name) {
             let names: Vec<&str> = axes.iter().map(|axis| axis.name.as_str()).collect();
             let message = format!("there is no axis \"{name}\" to scale");
-            let help = format!("the axes are {}", names.join(", "));
+            let help = match names.is_empty() {
+                true => "add the axis, or remove `scale`".to_owned(),
+                false => format!("the axes are {}", names.join(", ")),
+            };
             return Err(vec![Problem::new("", message).help(help)]);
         }
         if !(*factor > 0.0 && factor.is_finite()) {

@@ -202,6 +202,9 @@ fn a_study_that_is_stopped_goes_on_where_it_was() {
     let study = study(TINY);
     let place = tempfile::tempdir().unwrap();
     let (whole, cut) = (place.path().join("whole"), place.path().join("cut"));
+    for folder in [&whole, &cut] {
+        std::fs::create_dir(folder).unwrap();
+    }
     let expected = run_into(&study, &whole, KnownRuns::default());
     assert_eq!((expected.made.finished, expected.made.left), (12, 0));
 
@@ -415,7 +418,7 @@ fn rows_of_another_build_are_told_of_until_they_are_made_anew() {
         place
             .phase(&again)
             .code(0)
-            .complains("3 rows were made by version 0.0.9 (commit abc123); --force makes them anew")
+            .complains("3 rows were made by version 0.0.9 (commit abc123); --force runs them again")
             .complains("1 row was made by an unknown version; --force runs it again");
     }
     place.phase(&[&again[..], &["--force"]].concat()).code(0);
