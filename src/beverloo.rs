@@ -45,7 +45,7 @@ impl Opening {
 
 /// Properties of a bed of grains in the law.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Bed {
+pub struct GrainBed {
     /// Acceleration g (m/s2).
     pub gravity: f64,
     /// Number n of grains: per area of the plane of the flow (1/m2) with a flat opening, per volume
@@ -57,7 +57,7 @@ pub struct Bed {
     pub opening: Opening,
 }
 
-impl Bed {
+impl GrainBed {
     /// Grains per second through an opening of this width (m): C sqrt(g) n (D - k d)^p, zero if D <
     /// k d.
     pub fn discharge_rate(&self, width: f64, [c, k]: [f64; 2]) -> f64 {
@@ -99,14 +99,15 @@ pub struct Fit {
 
 /// Why the law cannot be fitted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum FitError {
-    /// There are too few discharges for two constants and their scatter.
-    #[error("the fit needs three discharges or more, of two openings or more")]
-    TooFew,
-    /// The rates do not follow any such law.
-    #[error("the rates do not grow with the opening as the law requires")]
-    NoLaw,
-}
+#[error("{0}")]
+pub struct FitError(&'static str);
+
+/// Two constants and their scatter need more discharges.
+const TOO_FEW: FitError =
+    FitError("the fit needs three discharges or more, of two openings or more");
+
+/// No such law has these rates.
+const NO_LAW: FitError = FitError("the rates do not grow with the opening as the law requires");
 
 /// Steps after which a fit that has not converged is given up; it takes about five.
 const MOST_STEPS: usize = 200;
@@ -123,22 +124,22 @@ const PROGRESS: f64 = 1e-13;
 ///
 /// # Errors
 /// If there are too few discharges, or they do not follow the law.
-pub fn fit(discharges: &[Discharge], bed: &Bed) -> Result<Fit, FitError> {
+pub fn fit(discharges: &[Discharge], bed: &GrainBed) -> Result<Fit, FitError> {
     let mut widths: Vec<f64> = discharges.iter().map(|it| it.width).collect();
     widths.sort_by(f64::total_cmp);
     widths.dedup();
     if discharges.len() < 3 || widths.len() < 2 {
-        return Err(FitError::TooFew);
+        return Err(TOO_FEW);
     }
     let squares = |constants| -> f64 {
         let residuals = discharges.iter().map(|it| residual(it, bed, constants));
         residuals.map(|it| it * it).sum()
     };
-    let mut constants = straightened(discharges, bed).ok_or(FitError::NoLaw)?;
+    let mut constants = straightened(discharges, bed).ok_or(NO_LAW)?;
     let mut least = squares(constants);
     for _ in 0..MOST_STEPS {
         let normal = Normal::at(discharges, bed, constants);
-        let step = normal.step().ok_or(FitError::NoLaw)?;
+        let step = normal.step().ok_or(NO_LAW)?;
         let moved = |share: f64| {
             [
                 constants[0] + share * step[0],
@@ -154,10 +155,10 @@ pub fn fit(discharges: &[Discharge], bed: &Bed) -> Result<Fit, FitError> {
         };
         (constants, least) = (next, squares(next));
     }
-    Err(FitError::NoLaw)
+    Err(NO_LAW)
 }
 
-fn residual(measured: &Discharge, bed: &Bed, constants: [f64; 2]) -> f64 {
+fn residual(measured: &Discharge, bed: &GrainBed, constants: [f64; 2]) -> f64 {
     measured.rate - bed.discharge_rate(measured.width, constants)
 }
 
@@ -179,7 +180,7 @@ fn estimates(count: usize, [c, k]: [f64; 2], squares: f64, normal: &Normal) -> F
 }
 
 /// A first guess: W^(1/p) is a straight line over D.
-fn straightened(discharges: &[Discharge], bed: &Bed) -> Option<[f64; 2]> {
+fn straightened(discharges: &[Discharge], bed: &GrainBed) -> Option<[f64; 2]> {
     let exponent = bed.opening.exponent();
     let root = |rate: f64| libm::pow(rate, 1.0 / exponent);
     let count = discharges.len() as f64;
@@ -209,7 +210,7 @@ struct Normal {
 }
 
 impl Normal {
-    fn at(discharges: &[Discharge], bed: &Bed, constants: [f64; 2]) -> Self {
+    fn at(discharges: &[Discharge], bed: &GrainBed, constants: [f64; 2]) -> Self {
         let mut normal = Self {
             matrix: [[0.0; 2]; 2],
             right: [0.0; 2],
@@ -258,14 +259,14 @@ mod tests {
     use rand::{Rng, SeedableRng};
     use rand_pcg::Pcg64;
 
-    const BED: Bed = Bed {
+    const BED: GrainBed = GrainBed {
         gravity: 9.81,
         number_density: 160.0,
         diameter: 0.08,
         opening: Opening::Flat,
     };
 
-    const ROUND: Bed = Bed {
+    const ROUND: GrainBed = GrainBed {
         number_density: 2300.0,
         opening: Opening::Round,
         ..BED
@@ -273,7 +274,7 @@ mod tests {
 
     const WIDTHS: [f64; 8] = [0.32, 0.36, 0.40, 0.44, 0.48, 0.52, 0.56, 0.64];
 
-    fn exact(bed: &Bed, constants: [f64; 2]) -> Vec<Discharge> {
+    fn exact(bed: &GrainBed, constants: [f64; 2]) -> Vec<Discharge> {
         let of = |width| Discharge {
             width,
             rate: bed.discharge_rate(width, constants),
@@ -307,15 +308,15 @@ mod tests {
     #[test]
     fn three_discharges_at_least_of_two_openings() {
         let all = exact(&BED, [1.0, 1.5]);
-        assert_eq!(fit(&all[..2], &BED), Err(FitError::TooFew));
-        assert_eq!(fit(&[all[0]; 5], &BED), Err(FitError::TooFew));
+        assert_eq!(fit(&all[..2], &BED), Err(TOO_FEW));
+        assert_eq!(fit(&[all[0]; 5], &BED), Err(TOO_FEW));
         assert!(fit(&[all[0], all[0], all[5]], &BED).is_ok());
         let mut falling = all;
         falling.reverse();
         for (it, width) in falling.iter_mut().zip(WIDTHS) {
             it.width = width;
         }
-        assert_eq!(fit(&falling, &BED), Err(FitError::NoLaw));
+        assert_eq!(fit(&falling, &BED), Err(NO_LAW));
     }
 
     /// A normal deviate: Box and Muller.

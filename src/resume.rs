@@ -69,14 +69,11 @@ impl Checkpoints {
         };
         match run.restore(checkpoint.state()) {
             Ok(()) => Ok(true),
-            Err(StateError::OTHER_FORM) => Err(CheckpointError::Damaged {
-                path: self.path.clone(),
-                reason: StateError::OTHER_FORM.0,
-            }),
-            Err(error) => Err(CheckpointError::Unfit {
-                path: self.path.clone(),
-                reason: error.to_string(),
-            }),
+            Err(StateError::OTHER_FORM) => {
+                let reason = StateError::OTHER_FORM.0;
+                Err(CheckpointError::damaged(&self.path, reason))
+            }
+            Err(error) => Err(CheckpointError::unfit(&self.path, error)),
         }
     }
 

@@ -103,10 +103,8 @@ impl PublishedMap {
         for (place, labels) in map.labels.iter_mut().enumerate() {
             labels.sort_unstable();
             if labels.is_empty() {
-                return Err(RefineError::Place {
-                    values: map.lattice.values(place),
-                    axes: names.len(),
-                });
+                let values = map.lattice.values(place);
+                return Err(RefineError::place(&values, names.len()));
             }
         }
         Ok(map)

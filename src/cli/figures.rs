@@ -99,8 +99,6 @@ pub(super) fn drawn(
         record: &|id| folder.read_record(id),
         points,
         times,
-        captions: &[],
-        data: &[],
         program: &Program::current(),
     };
     plot::draw(name, &source).map_err(|error| Failure::from(error).at(folder.root()))

@@ -35,7 +35,8 @@ const VERSION: &str = concat!(
     ")"
 );
 
-const AFTER_HELP: &str = "Exit codes:
+const AFTER_HELP: &str = "\
+Exit codes:
   0    done
   1    something failed: a job, the disk, a file that cannot be read or written
   2    refused before anything was done: wrong arguments, a wrong scene or sweep file,

@@ -15,7 +15,7 @@ const BEGINNING: f64 = 0.2;
 /// A drainage: its record, its box, and the times that count.
 ///
 /// All its times are since the opening opened: since the start, unless a door was closed.
-pub struct Drainage<'a> {
+pub struct MeasuredDrainage<'a> {
     /// The record.
     pub record: &'a RunRecord,
     /// The box and its spheres.
@@ -28,7 +28,7 @@ pub struct Drainage<'a> {
     states: &'a [Snapshot],
 }
 
-impl<'a> Drainage<'a> {
+impl<'a> MeasuredDrainage<'a> {
     /// Of a record; `times`: first and last time (s) of the states that count, by default from a
     /// fifth of the run to its end.
     ///

@@ -2,7 +2,7 @@
 
 use super::quantities::{outflow, over_states, packing_fraction};
 use super::spreading::correlation_radius;
-use super::{Drainage, flow_spread_of, spreading};
+use super::{MeasuredDrainage, flow_spread_of, spreading};
 use crate::measure::{Centres, Region};
 use crate::statistics::Estimate;
 use std::f64::consts::PI;
@@ -24,7 +24,7 @@ const PARTS: u32 = 200;
 /// * b: how fast the flow widens upwards, sigma^2 = 2 b z
 /// * w = b Pe / d: a spot that steps sqrt(2 b dz) aside moves spheres by a w-th of it, so that they
 ///   diffuse with the length b / w while they drop
-/// * r_s: the length of the velocity correlation, which is that of the common volume of two spots
+/// * r_s: velocities are correlated over the distance at which two spots still overlap
 /// * lambda = Q w V_p / (phi V_s): Q spheres leave per time, and a spot carries a w-th of the
 ///   volume of the spheres in it, with the volume V_s of a spot within the walls, V_p of a sphere,
 ///   and the packing fraction phi of the flow
@@ -36,7 +36,7 @@ const PARTS: u32 = 200;
 pub struct SpotFit {
     /// Diffusion length b (m).
     pub diffusion_length: Estimate,
-    /// Displacement of a spot over that of the spheres that it moves, w.
+    /// Displacement of a spot over the displacement of the spheres that it moves, w.
     pub displacement_ratio: Estimate,
     /// Radius r_s (m).
     pub radius: Estimate,
@@ -53,7 +53,7 @@ impl SpotFit {
     ///
     /// # Errors
     /// What the record does not show.
-    pub fn of(drainage: &Drainage<'_>) -> Result<Self, &'static str> {
+    pub fn of(drainage: &MeasuredDrainage<'_>) -> Result<Self, &'static str> {
         let diameter = drainage.filled_box.diameter;
         let spread = flow_spread_of(drainage)
             .ok_or("a flow that widens upwards, at six heights below its surface")?;
@@ -94,7 +94,7 @@ impl SpotFit {
 
 /// Whether the surface has come down to the heights at which the drop of the density is measured:
 /// the room that is left above it would count as one.
-fn has_sunk(drainage: &Drainage<'_>) -> bool {
+fn has_sunk(drainage: &MeasuredDrainage<'_>) -> bool {
     let (heights, share) = ABOVE;
     let region = drainage.filled_box.part(1.0, heights);
     let start = count_within(&Centres::of(drainage.start()), &region);
@@ -104,7 +104,7 @@ fn has_sunk(drainage: &Drainage<'_>) -> bool {
 
 /// How much less packing fraction there is in the flow than at the start, integrated over the area
 /// of the box (m2).
-fn density_deficit(drainage: &Drainage<'_>) -> Option<Estimate> {
+fn density_deficit(drainage: &MeasuredDrainage<'_>) -> Option<Estimate> {
     let region = drainage.filled_box.part(1.0, HEIGHTS);
     let height = region.high[2] - region.low[2];
     let diameter = drainage.filled_box.diameter;

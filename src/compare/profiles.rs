@@ -1,6 +1,6 @@
 //! Profiles of the downward velocity of a drainage.
 
-use super::Drainage;
+use super::MeasuredDrainage;
 use crate::measure::{FlowSpread, SpaceAxis, VelocityProfile, flow_spread};
 
 /// Heights of the layers that figures show, as shares of the height at the start: 20, 30 and 60
@@ -17,7 +17,7 @@ const CROSS: (f64, [f64; 2]) = (0.4, [0.45, 0.64]);
 const CROSS_BINS: f64 = 4.0;
 
 /// The profile over x of a layer at a share of the height at the start, in bins of a diameter.
-pub fn profile_at(drainage: &Drainage<'_>, share: f64) -> VelocityProfile {
+pub fn profile_at(drainage: &MeasuredDrainage<'_>, share: f64) -> VelocityProfile {
     let filled_box = &drainage.filled_box;
     let half = 0.5 * THICKNESS * filled_box.diameter / filled_box.filled;
     let region = filled_box.part(1.0, [share - half, share + half]);
@@ -27,7 +27,7 @@ pub fn profile_at(drainage: &Drainage<'_>, share: f64) -> VelocityProfile {
 }
 
 /// The profile through the depth, of the middle 40 % of the width (figure 8 of the paper).
-pub fn cross_profile(drainage: &Drainage<'_>) -> VelocityProfile {
+pub fn cross_profile(drainage: &MeasuredDrainage<'_>) -> VelocityProfile {
     let filled_box = &drainage.filled_box;
     let bins = (CROSS_BINS * 2.0 * filled_box.half_depth / filled_box.diameter).round();
     let region = filled_box.part(CROSS.0, CROSS.1);
@@ -38,12 +38,12 @@ pub fn cross_profile(drainage: &Drainage<'_>) -> VelocityProfile {
 }
 
 /// How fast the flow widens upwards: fitted to six layers, with images in the side walls.
-pub fn flow_spread_of(drainage: &Drainage<'_>) -> Option<FlowSpread> {
+pub fn flow_spread_of(drainage: &MeasuredDrainage<'_>) -> Option<FlowSpread> {
     let layers = FITTED_HEIGHTS.map(|share| profile_at(drainage, share));
     flow_spread(&layers, Some(drainage.filled_box.half_width))
 }
 
-fn filled(mut profile: VelocityProfile, drainage: &Drainage<'_>) -> VelocityProfile {
+fn filled(mut profile: VelocityProfile, drainage: &MeasuredDrainage<'_>) -> VelocityProfile {
     for pair in drainage.flow().windows(2) {
         profile.add(&pair[0], &pair[1]);
     }

@@ -1,7 +1,7 @@
 //! The numbers of a drainage, each with its interval.
 
 use super::spreading::correlation_radius;
-use super::{Drainage, flow_spread_of, spreading};
+use super::{MeasuredDrainage, flow_spread_of, spreading};
 use crate::measure::{
     Badness, Centres, Layers, RadialDistribution, lacey_index, outflow_rate, solid_like,
     stagnant_height, surface_angle,
@@ -10,7 +10,7 @@ use crate::observe::Snapshot;
 use crate::statistics::Estimate;
 
 /// A number that is measured of a drainage.
-pub struct Quantity {
+pub struct DrainageQuantity {
     /// Name.
     pub name: &'static str,
     /// Unit; lengths are over the diameter of the spheres, and have none.
@@ -18,82 +18,82 @@ pub struct Quantity {
     /// Whether it describes the flow, so that its error counts where drainages are compared.
     pub is_of_flow: bool,
     /// Measures it, with its interval of 95 % over states or blocks of time, infinite where nothing
-    /// tells its scatter. None where it is undefined.
-    pub measure: fn(&Drainage<'_>) -> Option<Estimate>,
+    /// tells its scatter. `None` if it is undefined.
+    pub measure: fn(&MeasuredDrainage<'_>) -> Option<Estimate>,
 }
 
-/// Name of the time that a run took, whose seconds are not those of its scene.
+/// Name of the time that a run took: seconds of a processor, not of its scene.
 pub(super) const PROCESSOR_TIME: &str = "processor time";
 
 /// All of them.
-pub static QUANTITIES: [Quantity; 16] = [
-    Quantity {
+pub static QUANTITIES: [DrainageQuantity; 16] = [
+    DrainageQuantity {
         name: "outflow",
         unit: "1/s",
         is_of_flow: true,
         measure: outflow,
     },
-    Quantity {
+    DrainageQuantity {
         name: "diffusion length of the flow b / d",
         unit: "",
         is_of_flow: true,
         measure: diffusion_length,
     },
-    Quantity {
+    DrainageQuantity {
         name: "height z0 / d from which the flow widens",
         unit: "",
         is_of_flow: false,
         measure: origin,
     },
-    Quantity {
+    DrainageQuantity {
         name: "packing fraction at the start",
         unit: "",
         is_of_flow: false,
         measure: |drainage| exact(packing_fraction(drainage, drainage.start())),
     },
-    Quantity {
+    DrainageQuantity {
         name: "packing fraction in the flow",
         unit: "",
         is_of_flow: true,
         measure: |drainage| over_states(drainage, |state| packing_fraction(drainage, state)),
     },
-    Quantity {
+    DrainageQuantity {
         name: "share of spheres in crystals, in the flow",
         unit: "",
         is_of_flow: true,
         measure: |drainage| over_states(drainage, |state| solid_share(drainage, state)),
     },
-    Quantity {
+    DrainageQuantity {
         name: "packing badness, of pairs",
         unit: "",
         is_of_flow: true,
         measure: badness_of,
     },
-    Quantity {
+    DrainageQuantity {
         name: "packing badness, as printed",
         unit: "",
         is_of_flow: false,
         measure: |drainage| over_states(drainage, |state| badness(drainage, state).as_printed()),
     },
-    Quantity {
+    DrainageQuantity {
         name: "least distance / d",
         unit: "",
         is_of_flow: false,
         measure: least_distance,
     },
-    Quantity {
+    DrainageQuantity {
         name: "Peclet number across the flow",
         unit: "",
         is_of_flow: true,
         measure: |drainage| spreading(drainage).peclet.map(|it| it[0]),
     },
-    Quantity {
+    DrainageQuantity {
         name: "Peclet number along the flow",
         unit: "",
         is_of_flow: false,
         measure: |drainage| spreading(drainage).peclet.map(|it| it[1]),
     },
-    Quantity {
+    DrainageQuantity {
         name: "length of velocity correlation R / d",
         unit: "",
         is_of_flow: true,
@@ -102,25 +102,25 @@ pub static QUANTITIES: [Quantity; 16] = [
             Some(over_diameter(drainage, radius))
         },
     },
-    Quantity {
+    DrainageQuantity {
         name: "index of mixing at the end",
         unit: "",
         is_of_flow: true,
         measure: |drainage| exact(mixing(drainage, last(drainage))),
     },
-    Quantity {
+    DrainageQuantity {
         name: "angle of the surface at the end",
         unit: "°",
         is_of_flow: true,
         measure: angle,
     },
-    Quantity {
+    DrainageQuantity {
         name: "height of the stagnant zone / d",
         unit: "",
         is_of_flow: false,
         measure: stagnant,
     },
-    Quantity {
+    DrainageQuantity {
         name: PROCESSOR_TIME,
         unit: "s",
         is_of_flow: false,
@@ -149,7 +149,7 @@ fn exact(value: Option<f64>) -> Option<Estimate> {
 
 /// Mean over at most ten states, evenly over the times that count.
 pub(super) fn over_states(
-    drainage: &Drainage<'_>,
+    drainage: &MeasuredDrainage<'_>,
     value: impl Fn(&Snapshot) -> Option<f64>,
 ) -> Option<Estimate> {
     let states = drainage.flow();
@@ -159,22 +159,22 @@ pub(super) fn over_states(
     Estimate::of_mean(&values?)
 }
 
-fn last<'a>(drainage: &Drainage<'a>) -> &'a Snapshot {
+fn last<'a>(drainage: &MeasuredDrainage<'a>) -> &'a Snapshot {
     drainage.flow().last().unwrap_or(drainage.start())
 }
 
 /// Spheres that leave per second.
-pub fn outflow(drainage: &Drainage<'_>) -> Option<Estimate> {
+pub fn outflow(drainage: &MeasuredDrainage<'_>) -> Option<Estimate> {
     let [time, left] = drainage.left();
     outflow_rate(&time, &left, drainage.window())
 }
 
-fn diffusion_length(drainage: &Drainage<'_>) -> Option<Estimate> {
+fn diffusion_length(drainage: &MeasuredDrainage<'_>) -> Option<Estimate> {
     let spread = flow_spread_of(drainage)?;
     Some(over_diameter(drainage, spread.diffusion_length))
 }
 
-fn origin(drainage: &Drainage<'_>) -> Option<Estimate> {
+fn origin(drainage: &MeasuredDrainage<'_>) -> Option<Estimate> {
     let spread = flow_spread_of(drainage)?;
     let floor = drainage.filled_box.floor;
     let above = Estimate {
@@ -184,7 +184,7 @@ fn origin(drainage: &Drainage<'_>) -> Option<Estimate> {
     Some(over_diameter(drainage, above))
 }
 
-fn over_diameter(drainage: &Drainage<'_>, length: Estimate) -> Estimate {
+fn over_diameter(drainage: &MeasuredDrainage<'_>, length: Estimate) -> Estimate {
     let diameter = drainage.filled_box.diameter;
     Estimate {
         value: length.value / diameter,
@@ -193,12 +193,12 @@ fn over_diameter(drainage: &Drainage<'_>, length: Estimate) -> Estimate {
 }
 
 /// Volume of the spheres in the middle over the volume of their Voronoi cells.
-pub fn packing_fraction(drainage: &Drainage<'_>, state: &Snapshot) -> Option<f64> {
+pub fn packing_fraction(drainage: &MeasuredDrainage<'_>, state: &Snapshot) -> Option<f64> {
     drainage.filled_box.packing_fraction(state)
 }
 
 /// Share of the spheres in the middle that are part of a crystal.
-fn solid_share(drainage: &Drainage<'_>, state: &Snapshot) -> Option<f64> {
+fn solid_share(drainage: &MeasuredDrainage<'_>, state: &Snapshot) -> Option<f64> {
     let filled_box = &drainage.filled_box;
     let centres = Centres::of(state);
     let region = filled_box.middle();
@@ -211,11 +211,11 @@ fn solid_share(drainage: &Drainage<'_>, state: &Snapshot) -> Option<f64> {
 }
 
 /// Overlaps over diameters of the pairs in the middle, per sphere.
-pub fn badness_of(drainage: &Drainage<'_>) -> Option<Estimate> {
+pub fn badness_of(drainage: &MeasuredDrainage<'_>) -> Option<Estimate> {
     over_states(drainage, |state| badness(drainage, state).of_pairs())
 }
 
-fn badness(drainage: &Drainage<'_>, state: &Snapshot) -> Badness {
+fn badness(drainage: &MeasuredDrainage<'_>, state: &Snapshot) -> Badness {
     let filled_box = &drainage.filled_box;
     let mut badness = Badness::default();
     badness.add(
@@ -226,7 +226,7 @@ fn badness(drainage: &Drainage<'_>, state: &Snapshot) -> Badness {
     badness
 }
 
-fn least_distance(drainage: &Drainage<'_>) -> Option<Estimate> {
+fn least_distance(drainage: &MeasuredDrainage<'_>) -> Option<Estimate> {
     let filled_box = &drainage.filled_box;
     let (farthest, bins) = DISTANCES;
     let mut distances = RadialDistribution::new(farthest * filled_box.diameter, bins);
@@ -242,20 +242,20 @@ fn least_distance(drainage: &Drainage<'_>) -> Option<Estimate> {
 
 /// Lacey's index of mixing of layers of ten diameters in the lower half, in cells that span the
 /// depth.
-pub fn mixing(drainage: &Drainage<'_>, state: &Snapshot) -> Option<f64> {
+pub fn mixing(drainage: &MeasuredDrainage<'_>, state: &Snapshot) -> Option<f64> {
     let start = layers(drainage).of(drainage.start());
     mixing_of(drainage, &Centres::of(state), &start)
 }
 
 /// The layers whose mixing is measured.
-pub(super) fn layers(drainage: &Drainage<'_>) -> Layers {
+pub(super) fn layers(drainage: &MeasuredDrainage<'_>) -> Layers {
     let filled_box = &drainage.filled_box;
     Layers::of_ten_diameters(filled_box.floor, filled_box.diameter)
 }
 
 /// The same of any centres in the box of a drainage, whose layers at their start are given.
 pub(super) fn mixing_of(
-    drainage: &Drainage<'_>,
+    drainage: &MeasuredDrainage<'_>,
     centres: &Centres,
     layers: &[Option<usize>],
 ) -> Option<f64> {
@@ -268,14 +268,14 @@ pub(super) fn mixing_of(
     lacey_index(centres, layers, &region, [cells(0), 1, cells(2)])
 }
 
-fn angle(drainage: &Drainage<'_>) -> Option<Estimate> {
+fn angle(drainage: &MeasuredDrainage<'_>) -> Option<Estimate> {
     let filled_box = &drainage.filled_box;
     let centres = Centres::of(last(drainage));
     let angle = surface_angle(&centres, filled_box.diameter, filled_box.half_width);
     exact(angle.map(f64::to_degrees))
 }
 
-fn stagnant(drainage: &Drainage<'_>) -> Option<Estimate> {
+fn stagnant(drainage: &MeasuredDrainage<'_>) -> Option<Estimate> {
     let filled_box = &drainage.filled_box;
     let [diameter, floor] = [filled_box.diameter, filled_box.floor];
     let (start, end) = (drainage.start(), last(drainage));

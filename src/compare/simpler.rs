@@ -1,10 +1,10 @@
 //! The same drainage by simpler models: voids on a lattice, and the kinematic flow.
 //!
 //! Both are plane. Their grains start on one triangular lattice that fills the width and height of
-//! the box, and as large a share of them leaves at any time as of the spheres of the record.
+//! the box. At any time the same share of grains has left as of the spheres of the record.
 
 use super::quantities::{layers, mixing_of};
-use super::{Drainage, flow_spread_of};
+use super::{MeasuredDrainage, flow_spread_of};
 use crate::measure::{Centres, count_left};
 use crate::particles::vector::Vector;
 use crate::spot::kinematic::KinematicFlow;
@@ -21,8 +21,8 @@ pub type MixingOverTime = Vec<(f64, f64)>;
 
 /// The index of mixing over time of voids: of their model, a grain strays by half a diameter with
 /// each row that it drops. None if the box has no opening.
-pub fn mixing_of_voids(drainage: &Drainage<'_>) -> Option<MixingOverTime> {
-    let lattice = Lattice::of(drainage)?;
+pub fn mixing_of_voids(drainage: &MeasuredDrainage<'_>) -> Option<MixingOverTime> {
+    let lattice = VoidLattice::of(drainage)?;
     let mut silo = lattice.full.clone();
     let grains = silo.grains();
     let mut left = 0;
@@ -43,8 +43,8 @@ pub fn mixing_of_voids(drainage: &Drainage<'_>) -> Option<MixingOverTime> {
 /// The index of mixing over time of the kinematic flow, with the diffusion length b that the record
 /// has: grains do not stray at all. What it has of mixing is layers that bend through cells. None
 /// if the box has no opening, or the record no b.
-pub fn mixing_of_kinematic_flow(drainage: &Drainage<'_>) -> Option<MixingOverTime> {
-    let lattice = Lattice::of(drainage)?;
+pub fn mixing_of_kinematic_flow(drainage: &MeasuredDrainage<'_>) -> Option<MixingOverTime> {
+    let lattice = VoidLattice::of(drainage)?;
     let diffusion = flow_spread_of(drainage)?.diffusion_length.value;
     let tank = drainage.record.scene.tank.as_ref()?;
     let mut flow = KinematicFlow {
@@ -71,7 +71,7 @@ pub fn mixing_of_kinematic_flow(drainage: &Drainage<'_>) -> Option<MixingOverTim
 }
 
 /// The lattice on which grains start.
-struct Lattice {
+struct VoidLattice {
     /// All grains at their start.
     full: VoidSilo,
     diameter: f64,
@@ -80,8 +80,8 @@ struct Lattice {
     shares: Vec<f64>,
 }
 
-impl Lattice {
-    fn of(drainage: &Drainage<'_>) -> Option<Self> {
+impl VoidLattice {
+    fn of(drainage: &MeasuredDrainage<'_>) -> Option<Self> {
         let it = &drainage.filled_box;
         let half_opening = drainage.record.scene.tank.as_ref()?.opening()?.1;
         let sites = |length: f64| (length / it.diameter).round().max(1.0) as usize;
@@ -132,7 +132,7 @@ impl Lattice {
     /// The index of mixing of the places at each state; states without an index are left out.
     fn mixing(
         &self,
-        drainage: &Drainage<'_>,
+        drainage: &MeasuredDrainage<'_>,
         places: impl Iterator<Item = Places>,
     ) -> MixingOverTime {
         let of = layers(drainage);

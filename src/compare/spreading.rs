@@ -1,6 +1,6 @@
 //! How far spheres stray from the mean flow.
 
-use super::Drainage;
+use super::MeasuredDrainage;
 use crate::measure::{Diffusion, SpaceAxis, VelocityCorrelation};
 use crate::statistics::Estimate;
 
@@ -21,7 +21,7 @@ const FEWEST: [usize; 2] = [3, 8];
 const CELL: f64 = 2.0;
 
 /// Of the spheres that start in the middle 40 % of the width, at 30 to 80 % of the height.
-pub fn spreading(drainage: &Drainage<'_>) -> Spreading {
+pub fn spreading(drainage: &MeasuredDrainage<'_>) -> Spreading {
     let diameter = drainage.filled_box.diameter;
     let region = drainage.filled_box.part(0.4, [0.3, 0.8]);
     let states = drainage.flow();
@@ -65,7 +65,7 @@ const NEAREST: f64 = 1.25;
 
 /// How velocities across the flow are correlated over the distance, of the spheres in the middle
 /// 40 % of the width, at 30 to 80 % of the height.
-pub fn velocity_correlation(drainage: &Drainage<'_>) -> VelocityCorrelation {
+pub fn velocity_correlation(drainage: &MeasuredDrainage<'_>) -> VelocityCorrelation {
     let diameter = drainage.filled_box.diameter;
     let region = drainage.filled_box.part(0.4, [0.3, 0.8]);
     let states = drainage.flow().windows(2);
@@ -76,7 +76,7 @@ pub fn velocity_correlation(drainage: &Drainage<'_>) -> VelocityCorrelation {
 }
 
 /// The radius (m) of spots that correlate velocities so.
-pub fn correlation_radius(drainage: &Drainage<'_>) -> Option<Estimate> {
+pub fn correlation_radius(drainage: &MeasuredDrainage<'_>) -> Option<Estimate> {
     let nearest = NEAREST * drainage.filled_box.diameter;
     velocity_correlation(drainage).radius(nearest)
 }

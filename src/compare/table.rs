@@ -1,23 +1,23 @@
 //! The numbers of several drainages, one row per number.
 
 use super::quantities::PROCESSOR_TIME;
-use super::{Drainage, QUANTITIES};
+use super::{MeasuredDrainage, QUANTITIES};
 use crate::record::RunRecord;
 use crate::scene::Units;
 use crate::statistics::Estimate;
 
 /// A number of several drainages.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Row {
+pub struct ComparisonRow {
     /// Name of the quantity.
     pub name: String,
     /// Its unit.
     pub unit: String,
-    /// Its values, in the order of the records; none where it is undefined.
+    /// Its values, in the order of the records; `None` if undefined.
     pub values: Vec<Option<Estimate>>,
 }
 
-impl Row {
+impl ComparisonRow {
     /// Its unit as a reader of scenes in these units sees it.
     pub fn shown_unit(&self, units: Units) -> &str {
         match &self.name[..] {
@@ -26,8 +26,8 @@ impl Row {
         }
     }
 
-    /// The second value less the first, of two; the interval is infinite if that of one is. Of one
-    /// run beside itself the interval is zero: nothing scatters.
+    /// The second of two values less the first. The interval is infinite if either is, and zero for
+    /// a run compared with itself: nothing scatters.
     pub fn difference(&self, is_of_one_run: bool) -> Option<Estimate> {
         let [Some(first), Some(second)] = self.values[..] else {
             return None;
@@ -45,22 +45,21 @@ impl Row {
 
 /// The numbers of several drainages.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Comparison {
+pub struct DrainageComparison {
     /// One row per quantity.
-    pub rows: Vec<Row>,
+    pub rows: Vec<ComparisonRow>,
     /// First and last time (s) since the opening of what was measured, of each record.
     pub windows: Vec<[f64; 2]>,
 }
 
-/// Whether the second of two columns is that of the same run: all numbers but the processor time
-/// are the same.
-pub fn are_of_one_run(rows: &[Row]) -> bool {
+/// Whether two columns are of the same run: all numbers but the processor time are the same.
+pub fn are_of_one_run(rows: &[ComparisonRow]) -> bool {
     let mut measured = rows.iter().filter(|row| row.name != PROCESSOR_TIME);
     measured.all(|row| matches!(row.values[..], [one, other] if one == other))
 }
 
-impl Comparison {
-    /// Measures records, one or more; `times` as of [`Drainage::new`].
+impl DrainageComparison {
+    /// Measures records, one or more; `times` as in [`MeasuredDrainage::new`].
     ///
     /// # Errors
     /// What a record lacks, and its place among them.
@@ -70,16 +69,18 @@ impl Comparison {
     ) -> Result<Self, (usize, &'static str)> {
         let drainages = records.iter().enumerate();
         let drainages = drainages
-            .map(|(place, record)| Drainage::new(record, times).map_err(|lacks| (place, lacks)))
-            .collect::<Result<Vec<Drainage<'_>>, _>>()?;
-        let row = |quantity: &super::Quantity| Row {
+            .map(|(place, record)| {
+                MeasuredDrainage::new(record, times).map_err(|lacks| (place, lacks))
+            })
+            .collect::<Result<Vec<MeasuredDrainage<'_>>, _>>()?;
+        let row = |quantity: &super::DrainageQuantity| ComparisonRow {
             name: quantity.name.to_owned(),
             unit: quantity.unit.to_owned(),
             values: drainages.iter().map(quantity.measure).collect(),
         };
         Ok(Self {
             rows: QUANTITIES.iter().map(row).collect(),
-            windows: drainages.iter().map(Drainage::held).collect(),
+            windows: drainages.iter().map(MeasuredDrainage::held).collect(),
         })
     }
 }

@@ -11,4 +11,4 @@ mod sweep;
 
 pub use forecast::{Forecast, ForecastError, Leaves, forecast};
 pub use run::{CostError, OBSERVERS, PartCost, RECORD, RunCost, START};
-pub use sweep::{SweepCost, Tried};
+pub use sweep::{SweepCost, TriedJob};

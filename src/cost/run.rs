@@ -49,8 +49,7 @@ pub const START: &str = "start";
 /// What a run costs, from itself or from its first part.
 #[derive(Clone, Debug)]
 pub struct RunCost {
-    /// What each part of what was run costs: those of the model's step, then observers, record and
-    /// start.
+    /// What each part costs: the parts of the model's step, then observers, record and start.
     pub parts: Vec<PartCost>,
     /// Time of day that its frames took (s): all but start and record.
     pub elapsed: f64,
@@ -68,7 +67,7 @@ pub struct RunCost {
 
 impl RunCost {
     /// Runs a scene until its end or, if that comes first, for so much processor time, and measures
-    /// what its parts cost. The motion is that of any other run.
+    /// what its parts cost. The motion is the same as in any other run.
     ///
     /// # Errors
     /// If the scene cannot be built, or no record written to a temporary folder.

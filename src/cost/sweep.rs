@@ -9,12 +9,12 @@ use std::time::Duration;
 #[derive(Clone, Debug)]
 pub struct SweepCost<'a> {
     /// The jobs that were tried.
-    pub tried: Vec<Tried<'a>>,
+    pub tried: Vec<TriedJob<'a>>,
 }
 
 /// A job that was tried, and what it stands for.
 #[derive(Clone, Debug)]
-pub struct Tried<'a> {
+pub struct TriedJob<'a> {
     /// The job.
     pub job: &'a Job,
     /// Number of jobs that it stands for, itself among them.
@@ -25,7 +25,7 @@ pub struct Tried<'a> {
     pub cost: RunCost,
 }
 
-impl Tried<'_> {
+impl TriedJob<'_> {
     /// Processor time of a part of all jobs that it stands for (s).
     fn seconds(&self, part: &PartCost) -> f64 {
         let runs = match part.is_once {
@@ -47,7 +47,7 @@ impl<'a> SweepCost<'a> {
         let budget = budget / (chosen.len() as u32).max(1);
         let tried = chosen.into_iter().map(|it| {
             let cost = RunCost::measure(&it.job.scene, budget)?;
-            Ok(Tried {
+            Ok(TriedJob {
                 job: it.job,
                 jobs: it.jobs,
                 // A silo that emptied has told how much less it takes.

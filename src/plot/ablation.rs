@@ -1,9 +1,9 @@
 //! Which effects a scene needs: how many labels change without each, and what that saves.
 
 use super::axes::Plot;
-use super::legend::{Entry, Key};
-use super::page::{Frame, Page, Plan};
-use super::scale::Span;
+use super::legend::{LegendEntry, LegendKey};
+use super::page::{FigurePage, PagePlan, PanelFrame};
+use super::scale::AxisSpan;
 use super::style::{Drawn, px};
 use super::svg::Svg;
 use super::ticks::Ticks;
@@ -32,7 +32,7 @@ pub fn draw(
     program: &Program,
 ) -> Result<Svg, PlotError> {
     if ablated.is_empty() {
-        return Err(PlotError::NoMeasures { figure: "ablation" });
+        return Err(PlotError::no_measures("ablation"));
     }
     let title = sweep
         .title
@@ -46,15 +46,15 @@ pub fn draw(
     let occurs = |verdict: &Verdict| ablated.iter().any(|it| it.verdict == *verdict);
     let verdicts = [Verdict::Needed, Verdict::NotNeeded, Verdict::Undecided];
     let legend = verdicts.into_iter().filter(occurs);
-    let legend = legend.map(|it| Entry::new(Key::Dot(color(it)), it.words()));
+    let legend = legend.map(|it| LegendEntry::new(LegendKey::Dot(color(it)), it.words()));
     let frames = frames(ablated, cost);
-    let page = Page::new(Plan {
+    let page = FigurePage::new(PagePlan {
         title: Some(&title),
         frames: frames.clone(),
         columns: 2,
         height: ROW * (ablated.len() as i32 + 1),
         legend: legend.collect(),
-        ..Plan::default()
+        ..PagePlan::default()
     });
     let body = page.draw(|sheet| {
         let changed = page.axes(sheet, 0)?;
@@ -104,14 +104,14 @@ fn ratio(it: &Ablated, cost: &Cost) -> f64 {
 }
 
 /// The panel of labels, and that of times.
-fn frames(ablated: &[Ablated], cost: &Cost) -> Vec<Frame> {
+fn frames(ablated: &[Ablated], cost: &Cost) -> Vec<PanelFrame> {
     let names = ablated.iter().enumerate();
     let names = names
         .map(|(row, it)| (row as f64, it.name.clone()))
         .collect();
-    let y = Span {
+    let y = AxisSpan {
         ticks: Ticks::Given(names),
-        ..Span::linear((ablated.len() as f64, -1.0))
+        ..AxisSpan::linear((ablated.len() as f64, -1.0))
     };
     let labels = ablated
         .iter()
@@ -124,14 +124,14 @@ fn frames(ablated: &[Ablated], cost: &Cost) -> Vec<Frame> {
     });
     let most = ablated.iter().map(|it| ratio(it, cost)).fold(1.0, f64::max);
     vec![
-        Frame {
+        PanelFrame {
             head: vec!["labels changed beyond the noise of seeds (%)".to_owned()],
-            x: Span::linear((low - 2.0, 1.05 * high)),
+            x: AxisSpan::linear((low - 2.0, 1.05 * high)),
             y: y.clone(),
         },
-        Frame {
+        PanelFrame {
             head: vec!["processor time / that of the scene as it is".to_owned()],
-            x: Span::linear((0.0, 1.05 * most)),
+            x: AxisSpan::linear((0.0, 1.05 * most)),
             y,
         },
     ]

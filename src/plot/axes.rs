@@ -1,19 +1,19 @@
 //! The frame of a panel with the ticks of its scales.
 
 use super::canvas::Canvas;
-use super::scale::Scale;
-use super::style::{self, Drawn, Failed, Sheet, TICK, frame, letters};
+use super::scale::AxisScale;
+use super::style::{self, Drawn, Failed, FigureSheet, TICK, frame, letters};
 use plotters::chart::{ChartBuilder, ChartContext, LabelAreaPosition};
 use plotters::coord::cartesian::Cartesian2d;
 use plotters::drawing::DrawingArea;
 use plotters::style::text_anchor::{HPos, VPos};
 
 /// A panel with its coordinates.
-pub(super) type Plot<'a> = DrawingArea<Canvas<'a>, Cartesian2d<Scale, Scale>>;
+pub(super) type Plot<'a> = DrawingArea<Canvas<'a>, Cartesian2d<AxisScale, AxisScale>>;
 
 pub(super) struct Axes<'s, 'c> {
-    sheet: &'s Sheet<'c>,
-    chart: ChartContext<'s, Canvas<'c>, Cartesian2d<Scale, Scale>>,
+    sheet: &'s FigureSheet<'c>,
+    chart: ChartContext<'s, Canvas<'c>, Cartesian2d<AxisScale, AxisScale>>,
     corners: style::Corners,
     /// Sizes of the letters of the labels of both scales.
     letters: (i32, i32),
@@ -21,13 +21,13 @@ pub(super) struct Axes<'s, 'c> {
 
 impl<'s, 'c> Axes<'s, 'c> {
     /// A panel with its upper left corner at `corner`, `ticks` being the room for tick labels left
-    /// of it and below; none where that is zero.
+    /// of it and below; zero for no labels.
     pub(super) fn new(
-        sheet: &'s Sheet<'c>,
+        sheet: &'s FigureSheet<'c>,
         (left, top): (i32, i32),
         (width, height): (i32, i32),
         ticks: (i32, i32),
-        scales: (Scale, Scale),
+        scales: (AxisScale, AxisScale),
     ) -> Result<Self, Failed> {
         let area = sheet
             .clone()

@@ -1,24 +1,24 @@
 //! The discharge rate of a silo over the width of its opening, with the law of Beverloo fitted to
 //! it.
 
-use super::chart::{Bar, Chart, Line, Panel, ends, samples};
+use super::chart::{Bar, Chart, ChartLine, ChartPanel, ends, samples};
 use super::grid::GridAxis;
 use super::numbers;
-use super::series::{self, Series};
+use super::series::{self, PointSeries};
 use super::style::px;
 use super::svg::Svg;
 use super::{Figure, PlotError, Source};
-use crate::beverloo::{self, Bed, Discharge, Fit, Opening};
+use crate::beverloo::{self, Discharge, Fit, GrainBed, Opening};
 use crate::classify::{DRAINAGE, Family, Point, SILO, Verdict};
 use crate::scene::{Scene, Units};
 use crate::statistics::Estimate;
 use std::f64::consts::PI;
 
-/// The discharge rate over the opening.
-pub(super) struct Beverloo;
+/// Name of the figure.
+const NAME: &str = "beverloo";
 
 /// What spheres leave through, and where the numbers of the law stand.
-struct Outlet {
+struct VariedOutlet {
     /// Key of the opening.
     key: &'static str,
     /// Width D of the opening over the value of the key.
@@ -32,8 +32,8 @@ struct Outlet {
     packing: &'static str,
 }
 
-static OUTLETS: [Outlet; 3] = [
-    Outlet {
+static OUTLETS: [VariedOutlet; 3] = [
+    VariedOutlet {
         key: "geometry.opening",
         width: 1.0,
         opening: Opening::Flat,
@@ -41,7 +41,7 @@ static OUTLETS: [Outlet; 3] = [
         rate: "discharge_rate",
         packing: "packing_fraction",
     },
-    Outlet {
+    VariedOutlet {
         key: "tank.orifice_radius",
         width: 2.0,
         opening: Opening::Round,
@@ -51,7 +51,7 @@ static OUTLETS: [Outlet; 3] = [
 ];
 
 /// A slit as long as its box is deep.
-const SLIT: Outlet = Outlet {
+const SLIT: VariedOutlet = VariedOutlet {
     key: "tank.slit_width",
     width: 1.0,
     opening: Opening::Flat,
@@ -60,7 +60,7 @@ const SLIT: Outlet = Outlet {
     packing: "start_packing_fraction",
 };
 
-impl Outlet {
+impl VariedOutlet {
     /// The outlet that a sweep varies, and its axis.
     fn of(source: &Source<'_>) -> Result<(&'static Self, GridAxis), PlotError> {
         let own = || OUTLETS.iter().filter(|it| it.family == source.table.family);
@@ -70,9 +70,11 @@ impl Outlet {
                 .filter(|it| it.key == axis.key)
                 .map(move |outlet| (outlet, index))
         });
-        let (outlet, index) = found.last().ok_or_else(|| PlotError::NeedsAxis {
-            figure: Beverloo.name(),
-            key: own().map(|it| it.key).next().unwrap_or_default(),
+        let (outlet, index) = found.last().ok_or_else(|| {
+            let key = own().map(|it| it.key).next().unwrap_or_default();
+            PlotError::request(format_args!(
+                "the figure `{NAME}` needs a sweep over `{key}`"
+            ))
         })?;
         let axis = GridAxis::new(index, source.sweep, source.table);
         Ok((outlet, axis))
@@ -93,79 +95,74 @@ impl Outlet {
 
 /// The law fitted to the runs of one line of the figure.
 #[derive(Clone, Debug)]
-pub struct FittedLine {
+pub struct FittedLaw {
     /// Values on the axes besides the opening, such as `μ = 0.2`; empty without such axes.
     pub name: String,
     /// The bed of these runs at rest, mean over all.
-    pub bed: Bed,
+    pub bed: GrainBed,
     /// The fit to all runs that have a rate.
     pub fit: Fit,
     /// Number of runs without one: their outflow stopped, or did not end.
     pub without_rate: usize,
 }
 
-impl Figure for Beverloo {
-    fn name(&self) -> &'static str {
-        "beverloo"
-    }
+pub(super) fn figure() -> Figure {
+    Figure::of_sweep(
+        NAME,
+        "discharge rate over the opening, with the law of Beverloo fitted",
+        draw,
+    )
+    .for_families([&SILO, &DRAINAGE])
+}
 
-    fn description(&self) -> String {
-        "discharge rate over the opening, with the law of Beverloo fitted".to_owned()
+fn draw(source: &Source<'_>) -> Result<Svg, PlotError> {
+    let (outlet, axis) = VariedOutlet::of(source)?;
+    let (lines, left_out) = series::lines(source, &axis)?;
+    let fitted = lines
+        .iter()
+        .map(|line| fitted(source, outlet, line))
+        .collect::<Result<Vec<_>, _>>()?;
+    let widest = axis.shown().last().copied().unwrap_or(1.0);
+    let mut panel = ChartPanel {
+        x: (0.0, 1.05 * widest),
+        ..ChartPanel::default()
+    };
+    for (line, fitted) in lines.iter().zip(&fitted) {
+        let width = outlet.width / axis.factor;
+        panel.lines.push(curve(fitted, line, width, panel.x.1));
+        panel.bars.extend(bars(source, outlet, line, axis.factor));
     }
-
-    fn families(&self) -> Vec<&'static Family> {
-        vec![&SILO, &DRAINAGE]
+    let bars = panel.bars.iter().map(|bar| bar.ends()[1]);
+    let curves = panel.lines.iter().flat_map(|line| &line.points);
+    let tops = bars.chain(curves.map(|point| point.1));
+    panel.y = (0.0, 1.03 * tops.fold(0.0, f64::max));
+    let legend = lines.iter().zip(&fitted);
+    let units = source.sweep.scene.units();
+    Chart {
+        name: NAME,
+        common: vec![law(outlet)],
+        columns: 1,
+        height: px(400),
+        panels: vec![panel],
+        x_label: axis.label(),
+        y_label: format!("discharge rate $W$ (grains/{})", units.of_time()),
+        legend: legend
+            .map(|(line, fitted)| (line.color, entry(&line.name, &fitted.fit)))
+            .collect(),
+        notes: notes(&fitted, outlet, units)
+            .into_iter()
+            .chain(left_out)
+            .collect(),
     }
-
-    fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
-        let (outlet, axis) = Outlet::of(source)?;
-        let (lines, left_out) = series::lines(source, &axis)?;
-        let fitted = lines
-            .iter()
-            .map(|line| fitted(source, outlet, line))
-            .collect::<Result<Vec<_>, _>>()?;
-        let widest = axis.shown().last().copied().unwrap_or(1.0);
-        let mut panel = Panel {
-            x: (0.0, 1.05 * widest),
-            ..Panel::default()
-        };
-        for (line, fitted) in lines.iter().zip(&fitted) {
-            let width = outlet.width / axis.factor;
-            panel.lines.push(curve(fitted, line, width, panel.x.1));
-            panel.bars.extend(bars(source, outlet, line, axis.factor));
-        }
-        let bars = panel.bars.iter().map(|bar| bar.ends()[1]);
-        let curves = panel.lines.iter().flat_map(|line| &line.points);
-        let tops = bars.chain(curves.map(|point| point.1));
-        panel.y = (0.0, 1.03 * tops.fold(0.0, f64::max));
-        let legend = lines.iter().zip(&fitted);
-        let units = source.sweep.scene.units();
-        Chart {
-            name: self.name(),
-            common: vec![law(outlet)],
-            columns: 1,
-            height: px(400),
-            panels: vec![panel],
-            x_label: axis.label(),
-            y_label: format!("discharge rate $W$ (grains/{})", units.of_time()),
-            legend: legend
-                .map(|(line, fitted)| (line.color, entry(&line.name, &fitted.fit)))
-                .collect(),
-            notes: notes(&fitted, outlet, units)
-                .into_iter()
-                .chain(left_out)
-                .collect(),
-        }
-        .draw(source)
-    }
+    .draw(&source.origin())
 }
 
 /// The law fitted to each line that the figure `beverloo` shows.
 ///
 /// # Errors
 /// Those of drawing the figure.
-pub fn fitted_lines(source: &Source<'_>) -> Result<Vec<FittedLine>, PlotError> {
-    let (outlet, axis) = Outlet::of(source)?;
+pub fn fitted_lines(source: &Source<'_>) -> Result<Vec<FittedLaw>, PlotError> {
+    let (outlet, axis) = VariedOutlet::of(source)?;
     let (lines, _) = series::lines(source, &axis)?;
     lines
         .iter()
@@ -174,7 +171,7 @@ pub fn fitted_lines(source: &Source<'_>) -> Result<Vec<FittedLine>, PlotError> {
 }
 
 /// The law, with markup.
-fn law(outlet: &Outlet) -> String {
+fn law(outlet: &VariedOutlet) -> String {
     let (exponent, width) = match outlet.opening {
         Opening::Flat => ("³⁄²", ""),
         Opening::Round => ("⁵⁄²", ", $D$ = 2 $R_o$"),
@@ -183,22 +180,25 @@ fn law(outlet: &Outlet) -> String {
 }
 
 /// Verdicts on the runs of a line, each with the value of the opening's key.
-fn runs<'a>(source: &'a Source<'_>, line: &'a Series) -> impl Iterator<Item = (f64, &'a Verdict)> {
+fn runs<'a>(
+    source: &'a Source<'_>,
+    line: &'a PointSeries,
+) -> impl Iterator<Item = (f64, &'a Verdict)> {
     line.points.iter().flat_map(|(opening, point)| {
         let rows = point.rows.iter().map(|&row| &source.table.rows[row]);
         rows.map(|row| (*opening, &row.verdict))
     })
 }
 
-fn fitted(source: &Source<'_>, outlet: &Outlet, line: &Series) -> Result<FittedLine, PlotError> {
+fn fitted(
+    source: &Source<'_>,
+    outlet: &VariedOutlet,
+    line: &PointSeries,
+) -> Result<FittedLaw, PlotError> {
     let name = super::text::plain(&line.name);
-    let fail = |reason: String| PlotError::Fit {
-        line: if name.is_empty() {
-            "the fit".to_owned()
-        } else {
-            name.clone()
-        },
-        reason,
+    let fail = |reason: String| {
+        let line = if name.is_empty() { "the fit" } else { &name };
+        PlotError::file(format_args!("{line}: {reason}"))
     };
     let bed = bed(source, outlet, line).ok_or_else(|| {
         let reason = "the law needs gravity and runs with a packing fraction at rest, in a scene \
@@ -212,7 +212,7 @@ fn fitted(source: &Source<'_>, outlet: &Outlet, line: &Series) -> Result<FittedL
     });
     let measured: Vec<Discharge> = measured.collect();
     let fit = beverloo::fit(&measured, &bed).map_err(|error| fail(error.to_string()))?;
-    Ok(FittedLine {
+    Ok(FittedLaw {
         without_rate: runs(source, line).count() - measured.len(),
         name,
         bed,
@@ -221,7 +221,7 @@ fn fitted(source: &Source<'_>, outlet: &Outlet, line: &Series) -> Result<FittedL
 }
 
 /// The bed of a line, with the packing fraction at rest as the mean over all runs.
-fn bed(source: &Source<'_>, outlet: &Outlet, line: &Series) -> Option<Bed> {
+fn bed(source: &Source<'_>, outlet: &VariedOutlet, line: &PointSeries) -> Option<GrainBed> {
     // Other axes may change the grains or gravity from line to line.
     let (_, point) = line.points.first()?;
     let scene = source.sweep.scene_at(&point.values).ok()?;
@@ -229,7 +229,7 @@ fn bed(source: &Source<'_>, outlet: &Outlet, line: &Series) -> Option<Bed> {
         .filter_map(|(_, verdict)| verdict.value(outlet.packing))
         .collect();
     let fraction = Estimate::of_mean(&fractions)?.value;
-    Some(Bed {
+    Some(GrainBed {
         gravity: scene.dem.effects.gravity.as_ref()?.acceleration,
         number_density: outlet.number_density(fraction, &scene),
         diameter: 2.0 * scene.spheres.radius.mean(),
@@ -238,7 +238,7 @@ fn bed(source: &Source<'_>, outlet: &Outlet, line: &Series) -> Option<Bed> {
 }
 
 /// The fitted law up to `end` of the axis; `width`: width of an opening over its value there.
-fn curve(fitted: &FittedLine, line: &Series, width: f64, end: f64) -> Line {
+fn curve(fitted: &FittedLaw, line: &PointSeries, width: f64, end: f64) -> ChartLine {
     let constants = [fitted.fit.c.value, fitted.fit.k.value];
     // From the width at which the rate is zero, as the axis shows it.
     let from = fitted.bed.diameter * constants[1].max(0.0) / width;
@@ -246,14 +246,14 @@ fn curve(fitted: &FittedLine, line: &Series, width: f64, end: f64) -> Line {
         let rate = fitted.bed.discharge_rate(shown * width, constants);
         (shown, rate)
     };
-    Line {
+    ChartLine {
         points: samples(from, end).map(rate).collect(),
         color: line.color,
     }
 }
 
 /// Means over the seeds.
-fn bars(source: &Source<'_>, outlet: &Outlet, line: &Series, factor: f64) -> Vec<Bar> {
+fn bars(source: &Source<'_>, outlet: &VariedOutlet, line: &PointSeries, factor: f64) -> Vec<Bar> {
     let bar = |(opening, point): &(f64, Point)| {
         let rows = point.rows.iter().map(|&row| &source.table.rows[row]);
         let rates = rows.filter_map(|row| row.verdict.value(outlet.rate));
@@ -285,7 +285,7 @@ fn entry(name: &str, fit: &Fit) -> String {
     }
 }
 
-fn notes(lines: &[FittedLine], outlet: &Outlet, units: Units) -> Vec<String> {
+fn notes(lines: &[FittedLaw], outlet: &VariedOutlet, units: Units) -> Vec<String> {
     let fitted: usize = lines.iter().map(|line| line.fit.discharges).sum();
     let without: usize = lines.iter().map(|line| line.without_rate).sum();
     let left_out = match without {

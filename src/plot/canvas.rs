@@ -5,7 +5,7 @@
 //! PNG, which has [`PNG_SCALE`] of them per CSS pixel: no hairlines between cells, no blur.
 
 use super::PlotError;
-use super::style::{self, Sheet};
+use super::style::{self, FigureSheet};
 use super::text::{SUBSCRIPT_SIZE, plain, runs};
 use crate::fonts::{self, FAMILY};
 use crate::markup::escape;
@@ -29,7 +29,7 @@ pub(super) const PNG_SCALE: f32 = 2.5;
 /// Units of the canvas per pixel of the PNG.
 pub(super) const SNAP: i32 = 4;
 
-type Drawn = Result<(), DrawingErrorKind<Infallible>>;
+type CanvasResult = Result<(), DrawingErrorKind<Infallible>>;
 
 /// What has been drawn on a canvas.
 #[derive(Clone, Debug, Default)]
@@ -50,7 +50,7 @@ pub(super) struct Canvas<'a> {
 /// Draws on a canvas of that size.
 pub(super) fn draw(
     (width, height): (i32, i32),
-    content: impl FnOnce(&Sheet<'_>) -> style::Drawn,
+    content: impl FnOnce(&FigureSheet<'_>) -> style::Drawn,
 ) -> Result<Body, PlotError> {
     let mut body = Body {
         size: (width as u32, height as u32),
@@ -62,7 +62,7 @@ pub(super) fn draw(
 }
 
 impl Canvas<'_> {
-    fn element(&mut self, element: &str) -> Drawn {
+    fn element(&mut self, element: &str) -> CanvasResult {
         self.body.elements.push_str(element);
         self.body.elements.push('\n');
         Ok(())
@@ -76,15 +76,15 @@ impl DrawingBackend for Canvas<'_> {
         self.body.size
     }
 
-    fn ensure_prepared(&mut self) -> Drawn {
+    fn ensure_prepared(&mut self) -> CanvasResult {
         Ok(())
     }
 
-    fn present(&mut self) -> Drawn {
+    fn present(&mut self) -> CanvasResult {
         Ok(())
     }
 
-    fn draw_pixel(&mut self, point: BackendCoord, color: BackendColor) -> Drawn {
+    fn draw_pixel(&mut self, point: BackendCoord, color: BackendColor) -> CanvasResult {
         self.draw_rect(point, (point.0 + 1, point.1 + 1), &color, true)
     }
 
@@ -93,7 +93,7 @@ impl DrawingBackend for Canvas<'_> {
         from: BackendCoord,
         to: BackendCoord,
         style: &S,
-    ) -> Drawn {
+    ) -> CanvasResult {
         self.draw_path([from, to], style)
     }
 
@@ -103,7 +103,7 @@ impl DrawingBackend for Canvas<'_> {
         (right, bottom): BackendCoord,
         style: &S,
         fill: bool,
-    ) -> Drawn {
+    ) -> CanvasResult {
         if !fill {
             let corners = [(left, top), (right, top), (right, bottom), (left, bottom)];
             return self.draw_path(corners.into_iter().chain([(left, top)]), style);
@@ -121,7 +121,7 @@ impl DrawingBackend for Canvas<'_> {
         &mut self,
         path: I,
         style: &S,
-    ) -> Drawn {
+    ) -> CanvasResult {
         let mut points: Vec<BackendCoord> = path.into_iter().collect();
         let straight = points
             .windows(2)
@@ -149,7 +149,7 @@ impl DrawingBackend for Canvas<'_> {
         radius: u32,
         style: &S,
         fill: bool,
-    ) -> Drawn {
+    ) -> CanvasResult {
         let paint = if fill {
             paint("fill", style.color())
         } else {
@@ -168,7 +168,7 @@ impl DrawingBackend for Canvas<'_> {
         &mut self,
         vertices: I,
         style: &S,
-    ) -> Drawn {
+    ) -> CanvasResult {
         let points: Vec<BackendCoord> = vertices.into_iter().collect();
         let (data, paint) = (path_data(&points), paint("fill", style.color()));
         self.element(&format!(r#"<path d="{data}Z" {paint}/>"#))
@@ -179,13 +179,13 @@ impl DrawingBackend for Canvas<'_> {
         text: &str,
         style: &T,
         (x, y): BackendCoord,
-    ) -> Drawn {
+    ) -> CanvasResult {
         let size = style.size();
         let lacking = fonts::lacking(text);
         if !lacking.is_empty() {
             self.body.unwritten.push((plain(text), lacking));
         }
-        // Top means the top of capitals (.73 em), bottom that of the descenders (.24 em).
+        // Top is the top of capitals (.73 em), bottom the end of descenders (.24 em).
         let baseline = match style.anchor().v_pos {
             VPos::Top => 0.73,
             VPos::Center => 0.365,

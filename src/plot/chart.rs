@@ -1,25 +1,25 @@
 //! A chart: lines over a horizontal axis, in panels of equal size.
 
 use super::canvas::Body;
-use super::legend::{Entry, Key};
-use super::page::{Frame, Page, Plan};
-use super::scale::Span;
-use super::spacing::Spacing;
-use super::style::{self, Drawn, Sheet, px};
-use super::svg::Svg;
+use super::legend::{LegendEntry, LegendKey};
+use super::page::{FigurePage, PagePlan, PanelFrame};
+use super::scale::AxisSpan;
+use super::spacing::AxisSpacing;
+use super::style::{self, Drawn, FigureSheet, px};
+use super::svg::{Origin, Svg};
 use super::ticks::Ticks;
-use super::{PlotError, Source, palette};
+use super::{PlotError, palette};
 use plotters::element::{ErrorBar, PathElement};
 use plotters::style::{Color, RGBColor};
 
 /// A line: points in the order of x, and its colour.
 #[derive(Clone, Debug)]
-pub(super) struct Line {
+pub(super) struct ChartLine {
     pub(super) points: Vec<(f64, f64)>,
     pub(super) color: RGBColor,
 }
 
-impl Line {
+impl ChartLine {
     /// A line of observations over time.
     pub(super) fn over(time: &[f64], values: &[f32], color: RGBColor) -> Self {
         let values = values.iter().map(|&value| f64::from(value));
@@ -58,28 +58,29 @@ impl Bar {
 }
 
 /// Both axes of powers of ten.
-pub(super) const BOTH_LOGARITHMIC: [Spacing; 2] = [Spacing::Logarithmic, Spacing::Logarithmic];
+pub(super) const BOTH_LOGARITHMIC: [AxisSpacing; 2] =
+    [AxisSpacing::Logarithmic, AxisSpacing::Logarithmic];
 
 /// A panel.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Panel {
+pub(super) struct ChartPanel {
     /// What stands above it, with markup: items of a list, which breaks between them.
     pub(super) head: Vec<String>,
     /// Ends of its axes. What lies left of them or right is not drawn.
     pub(super) x: (f64, f64),
     pub(super) y: (f64, f64),
-    pub(super) lines: Vec<Line>,
+    pub(super) lines: Vec<ChartLine>,
     /// Drawn over the lines.
     pub(super) bars: Vec<Bar>,
     /// How values of the horizontal and of the vertical axis are spaced.
-    pub(super) spacing: [Spacing; 2],
+    pub(super) spacing: [AxisSpacing; 2],
     /// Where the horizontal axis has ticks.
     pub(super) ticks: Ticks,
 }
 
-impl Panel {
+impl ChartPanel {
     /// A panel of lines, with all their values in sight.
-    pub(super) fn new(head: Vec<String>, x: (f64, f64), lines: Vec<Line>) -> Self {
+    pub(super) fn new(head: Vec<String>, x: (f64, f64), lines: Vec<ChartLine>) -> Self {
         let points = lines.iter().flat_map(|line| &line.points);
         let y = range(points.map(|point| point.1)).unwrap_or((0.0, 1.0));
         Self {
@@ -108,7 +109,7 @@ impl Panel {
         let bars = self.bars.iter();
         let ends = bars.flat_map(|bar| [bar.ends[0].max(0.1 * bar.at.1), bar.ends[1]]);
         let y = decades(points.map(|point| point.1).chain(ends));
-        let spacing = [self.spacing[0].clone(), Spacing::Logarithmic];
+        let spacing = [self.spacing[0].clone(), AxisSpacing::Logarithmic];
         Self { y, spacing, ..self }
     }
 
@@ -139,7 +140,7 @@ pub(super) struct Chart {
     /// What stands below the title and holds for all panels, as items of a list.
     pub(super) common: Vec<String>,
     /// Panels, row by row.
-    pub(super) panels: Vec<Panel>,
+    pub(super) panels: Vec<ChartPanel>,
     /// Panels per row.
     pub(super) columns: usize,
     /// Height of a panel.
@@ -154,27 +155,27 @@ pub(super) struct Chart {
 }
 
 impl Chart {
-    pub(super) fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
-        let body = self.body(source.sweep.title.as_deref())?;
-        Ok(Svg::new(self.name, source, &body))
+    pub(super) fn draw(&self, origin: &Origin<'_>) -> Result<Svg, PlotError> {
+        let body = self.body(origin.title)?;
+        Ok(Svg::new(self.name, origin, &body))
     }
 
     /// Size of the canvas, and what is drawn on it below a title.
     pub(super) fn body(&self, title: Option<&str>) -> Result<Body, PlotError> {
-        let frame = |panel: &Panel| Frame {
+        let frame = |panel: &ChartPanel| PanelFrame {
             head: panel.head.clone(),
-            x: Span {
+            x: AxisSpan {
                 spacing: panel.spacing[0].clone(),
                 ticks: panel.ticks.clone(),
-                ..Span::linear(panel.x)
+                ..AxisSpan::linear(panel.x)
             },
-            y: Span {
+            y: AxisSpan {
                 spacing: panel.spacing[1].clone(),
-                ..Span::linear(panel.y)
+                ..AxisSpan::linear(panel.y)
             },
         };
         let legend = self.legend.iter();
-        let page = Page::new(Plan {
+        let page = FigurePage::new(PagePlan {
             title,
             common: &self.common,
             frames: self.panels.iter().map(frame).collect(),
@@ -182,10 +183,10 @@ impl Chart {
             height: self.height,
             labels: [self.x_label.clone(), self.y_label.clone()],
             legend: legend
-                .map(|(color, text)| Entry::new(Key::Line(*color), text))
+                .map(|(color, text)| LegendEntry::new(LegendKey::Line(*color), text))
                 .collect(),
             notes: &self.notes,
-            ..Plan::default()
+            ..PagePlan::default()
         });
         page.draw(|sheet| {
             let mut panels = self.panels.iter().enumerate();
@@ -194,8 +195,8 @@ impl Chart {
     }
 }
 
-impl Panel {
-    fn draw(&self, sheet: &Sheet<'_>, page: &Page, index: usize) -> Drawn {
+impl ChartPanel {
+    fn draw(&self, sheet: &FigureSheet<'_>, page: &FigurePage, index: usize) -> Drawn {
         let axes = page.axes(sheet, index)?;
         let plot = axes.plot();
         if self.y.0 < 0.0 && self.y.1 > 0.0 {
@@ -290,7 +291,7 @@ pub(super) fn prefixed(unit: &str, largest: f64) -> (String, f64) {
 
 /// Scales panels to the unit with the prefix in which the largest value of their lines is at least
 /// one; that unit.
-pub(super) fn scaled(unit: &str, panels: &mut [Panel]) -> String {
+pub(super) fn scaled(unit: &str, panels: &mut [ChartPanel]) -> String {
     let lines = panels.iter().flat_map(|panel| &panel.lines);
     let sizes = lines.flat_map(|line| line.points.iter().map(|point| point.1.abs()));
     let (unit, factor) = prefixed(unit, sizes.fold(0.0, f64::max));

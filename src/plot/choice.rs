@@ -1,43 +1,35 @@
-//! Which runs a figure of single runs shows.
+//! Which runs of a sweep a figure of single runs shows.
 
 use super::{PlotError, Source, grid, numbers};
 use crate::classify::Label;
 use crate::classify::{LabelRow, Point};
-use crate::record::RunRecord;
 use crate::sweep::Selection;
 use std::cmp::Ordering;
 
-/// A run of the table of labels, chosen to be shown.
-#[derive(Clone, Copy)]
-pub(super) struct Run<'a> {
-    source: &'a Source<'a>,
-    pub(super) row: &'a LabelRow,
-    /// What names it, if its place in the sweep does not.
-    caption: Option<&'a [String]>,
+/// The runs of a sweep that a figure shows if none are asked for.
+pub(super) struct DefaultRuns {
+    /// Which runs these are.
+    pub(super) words: &'static str,
+    /// Their rows in the table of labels.
+    choose: fn(&Source<'_>) -> Result<Vec<usize>, PlotError>,
 }
 
-/// The runs at the points asked for, or else those of `choice`, as indices of rows.
-pub(super) fn runs<'a>(
-    source: &'a Source<'a>,
-    choice: impl FnOnce(&Source<'_>) -> Result<Vec<usize>, PlotError>,
-) -> Result<Vec<Run<'a>>, PlotError> {
-    grid::check(source.sweep, source.table)?;
-    let rows = if !source.captions.is_empty() {
-        (0..source.table.rows.len()).collect()
-    } else if source.points.is_empty() {
-        choice(source)?
-    } else {
-        let points = source.points.iter();
-        points
-            .map(|point| row_at(source, point))
-            .collect::<Result<_, _>>()?
-    };
-    let run = |row: usize| Run {
-        source,
-        row: &source.table.rows[row],
-        caption: source.captions.get(row).map(Vec::as_slice),
-    };
-    Ok(rows.into_iter().map(run).collect())
+pub(super) static CORNERS: DefaultRuns = DefaultRuns {
+    words: "the corners of the grid and between them",
+    choose: corners,
+};
+
+pub(super) static STATES: DefaultRuns = DefaultRuns {
+    words: "a typical run of every state",
+    choose: states,
+};
+
+/// The rows at the points asked for, or else the default ones.
+pub(super) fn rows(source: &Source<'_>, default: &DefaultRuns) -> Result<Vec<usize>, PlotError> {
+    match source.points {
+        [] => (default.choose)(source),
+        points => points.iter().map(|point| row_at(source, point)).collect(),
+    }
 }
 
 /// The row at a point: of the seed it names, or the first.
@@ -49,23 +41,27 @@ fn row_at(source: &Source<'_>, point: &Selection) -> Result<usize, PlotError> {
     })?;
     let written = point.to_string();
     if let Some(open) = chosen.axes.iter().find(|axis| axis.values.len() > 1) {
-        let known = open.words();
-        return Err(PlotError::OpenAxis {
-            point: written,
-            name: open.name.clone(),
-            values: known.join(", "),
-        });
+        return Err(PlotError::request(format_args!(
+            "the point {written} leaves the axis `{}` open; it takes {}",
+            open.name,
+            open.words().join(", ")
+        )));
     }
     let place: Vec<f64> = chosen.axes.iter().map(|axis| axis.values[0]).collect();
     let is_there =
         |row: &LabelRow| row.values == place && point.seed.is_none_or(|seed| row.seed == seed);
     let found = source.table.rows.iter().position(is_there);
-    found.ok_or(PlotError::NoRun { point: written })
+    found.ok_or_else(|| {
+        PlotError::request(format_args!(
+            "no run at {written} is in the table of labels; run `phase sweep` again to complete \
+             it, or choose another point or seed"
+        ))
+    })
 }
 
 /// The first run at both ends of the horizontal axis with the least value other than zero, the
 /// middle one and the largest of the vertical axis; at the first value of every other axis.
-pub(super) fn corners(source: &Source<'_>) -> Result<Vec<usize>, PlotError> {
+fn corners(source: &Source<'_>) -> Result<Vec<usize>, PlotError> {
     let rows = &source.table.rows;
     let [x, y, ..] = grid::places(source.sweep)?;
     let values = |axis: usize| {
@@ -108,7 +104,7 @@ pub(super) fn corners(source: &Source<'_>) -> Result<Vec<usize>, PlotError> {
 
 /// One run of every state that occurs, in the order of the labels: at the point nearest to the
 /// middle of those where all seeds have it, or else the majority, or else any.
-pub(super) fn states(source: &Source<'_>) -> Result<Vec<usize>, PlotError> {
+fn states(source: &Source<'_>) -> Result<Vec<usize>, PlotError> {
     let points = source.table.points();
     let has = |row: usize, label: Label| source.table.rows[row].verdict.label == label;
     let typical = |label: Label| {
@@ -143,20 +139,6 @@ pub(super) fn left_out(source: &Source<'_>) -> Option<String> {
         .then(|| format!("not shown: unstable, {count} of {} runs", rows.len()))
 }
 
-/// The places of runs in the sweep: what is common to all of several, and the rest for each.
-pub(super) fn places(runs: &[Run<'_>]) -> (Vec<String>, Vec<Vec<String>>) {
-    let mut places: Vec<Vec<String>> = runs.iter().map(Run::place).collect();
-    let Some((first, [_, ..])) = places.split_first() else {
-        return (Vec::new(), places);
-    };
-    let is_common = |part: &&String| places.iter().all(|place| place.contains(part));
-    let common: Vec<String> = first.iter().filter(is_common).cloned().collect();
-    for place in &mut places {
-        place.retain(|part| !common.contains(part));
-    }
-    (common, places)
-}
-
 /// The point nearest to the mean of all, counted in places along the axes.
 fn nearest_to_middle<'p>(source: &Source<'_>, points: &[&'p Point]) -> Option<&'p Point> {
     let place = |point: &Point| -> Vec<f64> {
@@ -182,38 +164,25 @@ fn nearest_to_middle<'p>(source: &Source<'_>, points: &[&'p Point]) -> Option<&'
     Some(points[nearest])
 }
 
-impl Run<'_> {
-    /// Its record.
-    pub(super) fn record(&self) -> Result<RunRecord, PlotError> {
-        (self.source.record)(&self.row.id).map_err(|source| PlotError::Record {
-            point: self.plainly(),
-            source,
-        })
+/// The place of a run in the sweep, with markup, such as `$r$ = 4 mm` and `$Ω$ = 8 rad/s`. The seed
+/// is named only if a point asks for one.
+pub(super) fn place(source: &Source<'_>, row: &LabelRow) -> Vec<String> {
+    let axes = source.sweep.axes.iter().zip(&row.values);
+    let mut parts: Vec<String> = axes
+        .map(|(axis, &value)| quantity(source, &axis.key, &axis.name, value))
+        .collect();
+    if source.points.iter().any(|point| point.seed.is_some()) {
+        parts.push(format!("seed {}", row.seed));
     }
+    parts
+}
 
-    /// Its place in the sweep, with markup: `$r$ = 4 mm` and `$Ω$ = 8 rad/s`. The seed is named
-    /// only if a point asks for one.
-    fn place(&self) -> Vec<String> {
-        if let Some(caption) = self.caption {
-            return caption.to_vec();
-        }
-        let axes = self.source.sweep.axes.iter().zip(&self.row.values);
-        let mut parts: Vec<String> = axes
-            .map(|(axis, &value)| quantity(self.source, &axis.key, &axis.name, value))
-            .collect();
-        if self.source.points.iter().any(|point| point.seed.is_some()) {
-            parts.push(format!("seed {}", self.row.seed));
-        }
-        parts
-    }
-
-    /// The same as one would write it on the command line.
-    fn plainly(&self) -> String {
-        let axes = self.source.sweep.axes.iter().zip(&self.row.values);
-        let values = axes.map(|(axis, value)| format!("{} = {}", axis.name, axis.word(*value)));
-        let seed = [format!("seed = {}", self.row.seed)];
-        values.chain(seed).collect::<Vec<_>>().join(", ")
-    }
+/// The same as one would write it on the command line.
+pub(super) fn plainly(source: &Source<'_>, row: &LabelRow) -> String {
+    let axes = source.sweep.axes.iter().zip(&row.values);
+    let values = axes.map(|(axis, value)| format!("{} = {}", axis.name, axis.word(*value)));
+    let seed = [format!("seed = {}", row.seed)];
+    values.chain(seed).collect::<Vec<_>>().join(", ")
 }
 
 /// `symbol = value unit`, with as many digits as tell it from the other values of its axis; small

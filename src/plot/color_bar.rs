@@ -2,8 +2,8 @@
 
 use super::chart::ends;
 use super::palette;
-use super::scale::{Room, Scale, Span};
-use super::style::{self, Drawn, LABEL, SMALL, Sheet, TICK, frame, letters, px};
+use super::scale::{AxisRoom, AxisScale, AxisSpan};
+use super::style::{self, Drawn, FigureSheet, LABEL, SMALL, TICK, frame, letters, px};
 use super::text;
 use crate::color::ColorMap;
 use plotters::coord::ranged1d::Ranged;
@@ -30,7 +30,7 @@ pub(super) struct ColorBar {
 }
 
 impl ColorBar {
-    /// The bar for these values; none without any. A `signed` quantity gets a map with zero in the
+    /// The bar for these values; `None` if empty. A `signed` quantity gets a map with zero in the
     /// middle, even if all values have one sign.
     pub(super) fn new(
         values: impl Iterator<Item = f64>,
@@ -76,8 +76,11 @@ impl ColorBar {
         palette::mapped(self.map, (value - self.low) / (self.high - self.low))
     }
 
-    fn scale(&self) -> Scale {
-        Scale::new(&Span::linear((self.low, self.high)), Room::Up(self.height))
+    fn scale(&self) -> AxisScale {
+        AxisScale::new(
+            &AxisSpan::linear((self.low, self.high)),
+            AxisRoom::Up(self.height),
+        )
     }
 
     /// Its width with numbers and label.
@@ -87,7 +90,7 @@ impl ColorBar {
     }
 
     /// Draws it with its upper left corner at `origin`.
-    pub(super) fn draw(&self, sheet: &Sheet<'_>, origin: (i32, i32)) -> Drawn {
+    pub(super) fn draw(&self, sheet: &FigureSheet<'_>, origin: (i32, i32)) -> Drawn {
         let (left, top) = origin;
         let (right, bottom) = (left + BAR, top + self.height);
         for step in 0..STEPS {

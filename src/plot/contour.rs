@@ -5,7 +5,7 @@ use std::collections::HashMap;
 /// A piece of a curve: points in shown values.
 pub(super) type Piece = Vec<(f64, f64)>;
 
-/// Values at the nodes of a grid; none where there is no value.
+/// Values at the nodes of a grid; `None` where there is no value.
 pub(super) struct Nodes<'a> {
     /// Places of the nodes, ascending.
     pub(super) x: &'a [f64],
@@ -17,7 +17,7 @@ pub(super) struct Nodes<'a> {
     pub(super) logarithmic: [bool; 2],
 }
 
-/// An edge between two nodes: from that of these indices along x (0) or y (1).
+/// An edge between two nodes: from the node of these indices along x (0) or y (1).
 type Edge = (usize, usize, usize);
 
 impl Nodes<'_> {

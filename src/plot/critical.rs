@@ -2,9 +2,9 @@
 
 use super::chart::samples;
 use super::contour::{Nodes, Piece};
-use super::diagram::{Curve, Stroke};
-use super::grid::{Grid, GridAxis, Panel};
-use super::scale::Span;
+use super::diagram::{PanelCurve, Stroke};
+use super::grid::{GridAxis, GridPanel, PanelGrid};
+use super::scale::AxisSpan;
 use crate::scene::Scene;
 use crate::theory::{critical_rotation, critical_rotation_with_friction};
 
@@ -16,7 +16,11 @@ pub(super) const WORDS: [&str; 2] = ["critical rotation $Ω_c$", "with friction,
 /// The curves Omega = Omega_c and Omega = Omega_mu inside a panel, in shown values; empty if the
 /// figure has no axis for Omega or the scene lacks what they need. What a panel is for counts
 /// instead of the scene's value. On a strip y goes from 0 to 1.
-pub(super) fn curves<P>(scene: &Scene, grid: &Grid<P>, panel: &Panel<P>) -> Vec<Curve> {
+pub(super) fn curves<P>(
+    scene: &Scene,
+    grid: &PanelGrid<P>,
+    panel: &GridPanel<P>,
+) -> Vec<PanelCurve> {
     let upright = grid.y.as_ref().is_some_and(|axis| axis.key == OMEGA);
     let (omega, other) = match &grid.y {
         Some(y) if y.key == OMEGA => (y, Some(&grid.x)),
@@ -65,11 +69,11 @@ pub(super) fn curves<P>(scene: &Scene, grid: &Grid<P>, panel: &Panel<P>) -> Vec<
         critical_rotation_with_friction(&scene.with_values(values).ok()?)
     };
     vec![
-        Curve {
+        PanelCurve {
             pieces: along(&with),
             stroke: Stroke::Dashed,
         },
-        Curve {
+        PanelCurve {
             pieces: along(&without),
             stroke: Stroke::Full,
         },
@@ -91,7 +95,7 @@ fn pieces(
         Some(critical).filter(|critical| critical.is_finite())
     };
     let curve: Vec<Option<f64>> = places.iter().map(shown).collect();
-    let Span { low, high, .. } = omega.span();
+    let AxisSpan { low, high, .. } = omega.span();
     let ends = [low, high];
     Nodes {
         x: &places,
@@ -103,7 +107,7 @@ fn pieces(
 }
 
 /// Value of a key that the panel stands for.
-fn fixed<P>(key: &str, grid: &Grid<P>, panel: &Panel<P>) -> Option<f64> {
+fn fixed<P>(key: &str, grid: &PanelGrid<P>, panel: &GridPanel<P>) -> Option<f64> {
     [(&grid.columns, panel.column), (&grid.rows, panel.row)]
         .into_iter()
         .find_map(|(axis, value)| match axis {
@@ -172,15 +176,13 @@ mod tests {
             variants: Vec::new(),
             rows: vec![row],
         };
-        let grid = Grid::new(&Source {
+        let grid = PanelGrid::new(&Source {
             sweep: &sweep,
             refining: None,
             table: &table,
             record: &|id| panic!("the grid read the record {id}"),
             points: &[],
             times: None,
-            captions: &[],
-            data: &[],
             program: &Program::current(),
         })
         .unwrap();

@@ -1,76 +1,69 @@
 //! The critical rotation over the radius of the spheres (Rice, 2012, eq. 43 and figure 19).
 
-use super::chart::{Chart, Line, Panel, ends, samples};
+use super::chart::{Chart, ChartLine, ChartPanel, ends, samples};
 use super::grid::GridAxis;
-use super::spacing::Spacing;
+use super::spacing::AxisSpacing;
 use super::style::px;
 use super::svg::Svg;
 use super::ticks::Ticks;
 use super::{Figure, PlotError, Source, choice, palette};
-use crate::classify::{Family, TANK};
+use crate::classify::TANK;
 use crate::scene::Scene;
 use crate::theory::critical_rotation;
 use plotters::style::RGBColor;
 
-/// The critical rotation over the radius of the spheres.
-pub(super) struct CriticalRotation;
+/// Name of the figure.
+const NAME: &str = "critical-rotation";
 
 /// Axes of a sweep that move the curve, each value to one line, as many as there are colours.
 const MOVING: [&str; 3] = ["spheres.count", "tank.radius", "gravity.acceleration"];
 
-impl Figure for CriticalRotation {
-    fn name(&self) -> &'static str {
-        "critical-rotation"
-    }
+pub(super) fn figure() -> Figure {
+    Figure::of_sweep(
+        NAME,
+        "theory: critical rotation over the radius of the spheres (eq. 43)",
+        draw,
+    )
+    .for_families([&TANK])
+}
 
-    fn description(&self) -> String {
-        "theory: critical rotation over the radius of the spheres (eq. 43)".to_owned()
+fn draw(source: &Source<'_>) -> Result<Svg, PlotError> {
+    let (low, high) = radii(source);
+    let x = (low * 1e3, high * 1e3);
+    let (spacing, ticks) = axis(source);
+    let (mut lines, mut legend) = (Vec::new(), Vec::new());
+    for (name, color, scene) in scenes(source) {
+        let omega = |radius: f64| critical(&scene, radius * 1e-3).map(|omega| (radius, omega));
+        let radii = samples(0.0, 1.0).map(|share| spacing.along(share, x.0, x.1));
+        let points: Option<Vec<_>> = radii.map(omega).collect();
+        let points =
+            points.ok_or_else(|| PlotError::needs(NAME, "a tank with a radius, and gravity"))?;
+        lines.push(ChartLine { points, color });
+        legend.push((color, name));
     }
-
-    fn families(&self) -> Vec<&'static Family> {
-        vec![&TANK]
+    if lines.len() == 1 {
+        legend.clear();
     }
-
-    fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
-        let (low, high) = radii(source);
-        let x = (low * 1e3, high * 1e3);
-        let (spacing, ticks) = axis(source);
-        let (mut lines, mut legend) = (Vec::new(), Vec::new());
-        for (name, color, scene) in scenes(source) {
-            let omega = |radius: f64| critical(&scene, radius * 1e-3).map(|omega| (radius, omega));
-            let radii = samples(0.0, 1.0).map(|share| spacing.along(share, x.0, x.1));
-            let points: Option<Vec<_>> = radii.map(omega).collect();
-            let points = points.ok_or(PlotError::Scene {
-                figure: self.name(),
-                needs: "a tank with a radius, and gravity",
-            })?;
-            lines.push(Line { points, color });
-            legend.push((color, name));
-        }
-        if lines.len() == 1 {
-            legend.clear();
-        }
-        Chart {
-            name: self.name(),
-            common: fixed(source),
-            panels: vec![Panel {
-                spacing: [spacing, Spacing::Linear],
-                ticks,
-                ..Panel::new(Vec::new(), x, lines).down_to_zero()
-            }],
-            columns: 1,
-            height: px(400),
-            x_label: "radius of the spheres $r$ (mm)".to_owned(),
-            y_label: "critical rotation $Ω_c$ (rad/s)".to_owned(),
-            legend,
-            ..Chart::default()
-        }
-        .draw(source)
+    Chart {
+        name: NAME,
+        common: fixed(source),
+        panels: vec![ChartPanel {
+            spacing: [spacing, AxisSpacing::Linear],
+            ticks,
+            ..ChartPanel::new(Vec::new(), x, lines).down_to_zero()
+        }],
+        columns: 1,
+        height: px(400),
+        x_label: "radius of the spheres $r$ (mm)".to_owned(),
+        y_label: "critical rotation $Ω_c$ (rad/s)".to_owned(),
+        legend,
+        ..Chart::default()
     }
+    .draw(&source.origin())
 }
 
 /// How radii (mm) are spaced, and where they have ticks: as on other figures of the sweep.
-fn axis(source: &Source<'_>) -> (Spacing, Ticks) {
+fn axis(source: &Source<'_>) -> (AxisSpacing, Ticks) {
     let mut axes = source.sweep.axes.iter();
     let index = axes.position(|axis| axis.key == "spheres.radius");
     let axis = index.map(|index| GridAxis {
@@ -78,9 +71,9 @@ fn axis(source: &Source<'_>) -> (Spacing, Ticks) {
         ..GridAxis::new(index, source.sweep, source.table)
     });
     match axis.map(|axis| (axis.spacing(), axis.shown())) {
-        Some((spacing @ Spacing::Equal(_), radii)) => (spacing, Ticks::Values(radii)),
+        Some((spacing @ AxisSpacing::Equal(_), radii)) => (spacing, Ticks::Values(radii)),
         Some((spacing, _)) => (spacing, Ticks::Round),
-        None => (Spacing::Linear, Ticks::Round),
+        None => (AxisSpacing::Linear, Ticks::Round),
     }
 }
 
@@ -134,7 +127,7 @@ fn fixed(source: &Source<'_>) -> Vec<String> {
         .collect()
 }
 
-/// The radii of the figure (m): those of the sweep, or else around that of the scene.
+/// The radii of the figure (m): the range of the sweep, or else around the radius of the scene.
 pub(super) fn radii(source: &Source<'_>) -> (f64, f64) {
     let sweep = source.sweep;
     let axis = sweep.axes.iter().find(|axis| axis.key == "spheres.radius");

@@ -5,11 +5,11 @@ use super::canvas::Body;
 use super::color_bar::ColorBar;
 use super::contour::Piece;
 use super::critical;
-use super::grid::{self, Grid, GridAxis, Panel};
-use super::legend::{Entry, Key};
-use super::page::{Frame, Page, Plan};
-use super::scale::Scale;
-use super::style::{self, Corners, Drawn, Fill, Sheet, px};
+use super::grid::{self, GridAxis, GridPanel, PanelGrid};
+use super::legend::{LegendEntry, LegendKey};
+use super::page::{FigurePage, PagePlan, PanelFrame};
+use super::scale::AxisScale;
+use super::style::{self, Corners, Drawn, FigureSheet, Fill, px};
 use super::svg::Svg;
 use super::{PlotError, Source};
 use crate::classify::Point;
@@ -51,7 +51,7 @@ impl Look {
 
 /// A curve over a panel: pieces in shown values.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Curve {
+pub(super) struct PanelCurve {
     pub(super) pieces: Vec<Piece>,
     pub(super) stroke: Stroke,
 }
@@ -67,22 +67,22 @@ pub(super) enum Stroke {
     Border,
 }
 
-impl Curve {
+impl PanelCurve {
     /// Entries of the legend for the curves that there are, with words for full and dashed ones.
-    pub(super) fn entries(curves: &[Vec<Self>], words: [&str; 2]) -> Vec<Entry> {
+    pub(super) fn entries(curves: &[Vec<Self>], words: [&str; 2]) -> Vec<LegendEntry> {
         let is_there = |stroke: Stroke| {
             let mut curves = curves.iter().flatten();
             curves.any(|curve| curve.stroke == stroke && !curve.pieces.is_empty())
         };
         let [full, dashed] = words;
         let entries = [
-            (Stroke::Full, Key::Curve, full),
-            (Stroke::Dashed, Key::Dashes, dashed),
+            (Stroke::Full, LegendKey::Curve, full),
+            (Stroke::Dashed, LegendKey::Dashes, dashed),
         ];
         let entries = entries.into_iter();
         entries
             .filter(|(stroke, ..)| is_there(*stroke))
-            .map(|(_, key, words)| Entry::new(key, words))
+            .map(|(_, key, words)| LegendEntry::new(key, words))
             .collect()
     }
 }
@@ -97,7 +97,7 @@ struct Side {
 }
 
 /// The cells of an axis of this length.
-fn sides(axis: &GridAxis, scale: &Scale, length: i32) -> Vec<Side> {
+fn sides(axis: &GridAxis, scale: &AxisScale, length: i32) -> Vec<Side> {
     let at = |value: f64| scale.fraction(value) * f64::from(length);
     let edges = axis.edges();
     let cells = axis.values.iter().zip(edges.windows(2));
@@ -116,20 +116,20 @@ fn sides(axis: &GridAxis, scale: &Scale, length: i32) -> Vec<Side> {
 pub(super) struct Diagram<'a, P = Point> {
     /// Name of the figure.
     pub(super) name: &'a str,
-    pub(super) grid: &'a Grid<P>,
+    pub(super) grid: &'a PanelGrid<P>,
     /// How a point looks; `None` where it has no value.
     pub(super) look: &'a dyn Fn(&P) -> Option<Look>,
     /// What a cell without a value is called.
     pub(super) empty: String,
-    /// Entries of the legend, before those of the curve and of empty cells.
-    pub(super) legend: Vec<Entry>,
+    /// First entries of the legend; the curve and empty cells follow.
+    pub(super) legend: Vec<LegendEntry>,
     pub(super) bar: Option<ColorBar>,
 }
 
 impl Diagram<'_> {
     /// Draws it with the curves of the critical rotation.
     pub(super) fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
-        let curves = |panel: &Panel| {
+        let curves = |panel: &GridPanel| {
             let scene = source.sweep.scene_of_variant(self.grid.variant(panel));
             critical::curves(scene, self.grid, panel)
         };
@@ -140,14 +140,14 @@ impl Diagram<'_> {
     pub(super) fn draw_with(
         &self,
         source: &Source<'_>,
-        curves: &dyn Fn(&Panel) -> Vec<Curve>,
+        curves: &dyn Fn(&GridPanel) -> Vec<PanelCurve>,
         words: [&str; 2],
     ) -> Result<Svg, PlotError> {
-        let curves: Vec<Vec<Curve>> = self.grid.panels.iter().map(curves).collect();
-        let entries = Curve::entries(&curves, words);
+        let curves: Vec<Vec<PanelCurve>> = self.grid.panels.iter().map(curves).collect();
+        let entries = PanelCurve::entries(&curves, words);
         let title = source.sweep.title.as_deref();
         let body = self.body(title, &curves, entries)?;
-        Ok(Svg::new(self.name, source, &body))
+        Ok(Svg::new(self.name, &source.origin(), &body))
     }
 }
 
@@ -157,8 +157,8 @@ impl<P> Diagram<'_, P> {
     pub(super) fn body(
         &self,
         title: Option<&str>,
-        curves: &[Vec<Curve>],
-        of_curves: impl IntoIterator<Item = Entry>,
+        curves: &[Vec<PanelCurve>],
+        of_curves: impl IntoIterator<Item = LegendEntry>,
     ) -> Result<Body, PlotError> {
         let columns = self.grid.panels_per_row();
         let height = match (&self.grid.y, columns) {
@@ -172,7 +172,7 @@ impl<P> Diagram<'_, P> {
         let mut legend = self.entries();
         legend.extend(of_curves);
         let y_label = self.grid.y.as_ref().map(|axis| axis.label());
-        let mut page = Page::new(Plan {
+        let mut page = FigurePage::new(PagePlan {
             title,
             frames: self.frames(columns),
             columns,
@@ -182,7 +182,7 @@ impl<P> Diagram<'_, P> {
             labels: [self.grid.x.label(), y_label.unwrap_or_default()],
             legend,
             beside: columns == 1 && bar.is_none() && self.grid.y.is_some(),
-            ..Plan::default()
+            ..PagePlan::default()
         });
         page.legend.0.cell = self.smallest_cell(&page);
         let mut body = page.draw(|sheet| {
@@ -195,10 +195,10 @@ impl<P> Diagram<'_, P> {
         Ok(body)
     }
 
-    fn frames(&self, columns: usize) -> Vec<Frame> {
+    fn frames(&self, columns: usize) -> Vec<PanelFrame> {
         let panels = self.grid.panels.iter().enumerate();
-        let frame = |(index, panel): (usize, &Panel<P>)| Frame {
-            // Where rows have heads too, those of columns stand above the first row alone.
+        let frame = |(index, panel): (usize, &GridPanel<P>)| PanelFrame {
+            // If rows have heads too, columns have theirs above the first row only.
             head: match &panel.head {
                 Some(head) if index < columns || self.grid.rows.is_none() => vec![head.clone()],
                 _ => Vec::new(),
@@ -213,22 +213,28 @@ impl<P> Diagram<'_, P> {
         panels.map(frame).collect()
     }
 
-    fn looks(&self, panel: &Panel<P>) -> Vec<Option<Look>> {
+    fn looks(&self, panel: &GridPanel<P>) -> Vec<Option<Look>> {
         let look = |cell: &Option<P>| cell.as_ref().and_then(self.look);
         panel.cells.iter().map(look).collect()
     }
 
     /// Entries of the legend but for curves.
-    fn entries(&self) -> Vec<Entry> {
+    fn entries(&self) -> Vec<LegendEntry> {
         let mut entries = self.legend.clone();
-        let empty = |panel: &Panel<P>| self.looks(panel).contains(&None);
+        let empty = |panel: &GridPanel<P>| self.looks(panel).contains(&None);
         if self.grid.panels.iter().any(empty) {
-            entries.push(Entry::new(Key::Fill(Fill::Hatch), &self.empty));
+            entries.push(LegendEntry::new(LegendKey::Fill(Fill::Hatch), &self.empty));
         }
         entries
     }
 
-    fn draw_panel(&self, sheet: &Sheet<'_>, page: &Page, index: usize, curves: &[Curve]) -> Drawn {
+    fn draw_panel(
+        &self,
+        sheet: &FigureSheet<'_>,
+        page: &FigurePage,
+        index: usize,
+        curves: &[PanelCurve],
+    ) -> Drawn {
         let axes = page.axes(sheet, index)?;
         let plot = axes.plot();
         let looks = self.looks(&self.grid.panels[index]);
@@ -243,7 +249,7 @@ impl<P> Diagram<'_, P> {
             }
         }
         self.draw_borders(sheet, plot, &looks)?;
-        for Curve { pieces, stroke } in curves {
+        for PanelCurve { pieces, stroke } in curves {
             let draw = match stroke {
                 Stroke::Full => style::curve,
                 Stroke::Dashed => style::dashes,
@@ -316,7 +322,7 @@ impl<P> Diagram<'_, P> {
     }
 
     /// The cells of both axes on the canvas.
-    fn sides(&self, page: &Page) -> [Vec<Side>; 2] {
+    fn sides(&self, page: &FigurePage) -> [Vec<Side>; 2] {
         let ((x, y), (width, height)) = (page.scales(0), page.panel);
         let up = self.grid.y.as_ref();
         let up = up.map(|axis| sides(axis, y, height)).unwrap_or_default();
@@ -324,7 +330,7 @@ impl<P> Diagram<'_, P> {
     }
 
     /// Shortest side of a cell around its point, as far as marks grow with it.
-    fn smallest_cell(&self, page: &Page) -> i32 {
+    fn smallest_cell(&self, page: &FigurePage) -> i32 {
         let sides = self.sides(page).into_iter().flatten();
         let strip = f64::from(page.panel.1);
         let shortest = sides.map(|side| side.around).fold(strip, f64::min);
@@ -332,7 +338,7 @@ impl<P> Diagram<'_, P> {
     }
 
     /// Says which axes have cells that are too narrow to be seen.
-    fn warnings(&self, page: &Page) -> Vec<String> {
+    fn warnings(&self, page: &FigurePage) -> Vec<String> {
         let axes = [Some(&self.grid.x), self.grid.y.as_ref()];
         let axes = axes.into_iter().zip(self.sides(page));
         let warning = |(axis, sides): (Option<&GridAxis>, Vec<Side>)| {
@@ -348,7 +354,12 @@ impl<P> Diagram<'_, P> {
     }
 
     /// Draws the lines between cells of different groups.
-    fn draw_borders(&self, sheet: &Sheet<'_>, plot: &Plot<'_>, looks: &[Option<Look>]) -> Drawn {
+    fn draw_borders(
+        &self,
+        sheet: &FigureSheet<'_>,
+        plot: &Plot<'_>,
+        looks: &[Option<Look>],
+    ) -> Drawn {
         let (x, y) = self.edges(plot);
         let (columns, rows) = self.grid.cells();
         let group = |column: usize, row: usize| looks[column + row * columns].map(|at| at.group);

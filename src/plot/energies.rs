@@ -1,40 +1,33 @@
 //! Energies over time, per sphere (Rice, 2012, figures 12 and 15): the whole run, and its begin.
 
-use super::chart::{self, Chart, Line, Panel};
-use super::choice::{self, Run};
+use super::chart::{self, Chart, ChartLine, ChartPanel};
+use super::runs::{Runs, ShownRun};
 use super::style::px;
 use super::svg::Svg;
-use super::{Figure, PlotError, Source, numbers, palette};
-use crate::classify::{Family, TANK};
+use super::{Figure, PlotError, choice, numbers, palette};
+use crate::classify::TANK;
 use crate::record::RunRecord;
 
-/// Energies over time.
-pub(super) struct Energies {
-    name: &'static str,
-    description: &'static str,
-    default_runs: &'static str,
-    choice: fn(&Source<'_>) -> Result<Vec<usize>, PlotError>,
-    /// Whether the heads name the states.
-    with_states: bool,
+/// Energies over the grid (figure 15).
+pub(super) fn over_the_grid() -> Figure {
+    const NAME: &str = "energies";
+    let description = "mean energies of a sphere over time: the whole run and its first second";
+    let draw = |runs: &Runs<'_>| draw(NAME, runs, false);
+    Figure::of_runs(NAME, description, &choice::CORNERS, draw).for_families([&TANK])
 }
 
-/// Energies over the grid (figure 15).
-pub(super) static ENERGIES: Energies = Energies {
-    name: "energies",
-    description: "mean energies of a sphere over time: the whole run and its first second",
-    default_runs: "the corners of the grid and between them",
-    choice: choice::corners,
-    with_states: false,
-};
-
 /// Energies of every state (figure 12).
-pub(super) static STATE_ENERGIES: Energies = Energies {
-    name: "state-energies",
-    description: "the same, one run of every state",
-    default_runs: "a typical run of every state",
-    choice: choice::states,
-    with_states: true,
-};
+pub(super) fn of_every_state() -> Figure {
+    const NAME: &str = "state-energies";
+    let draw = |runs: &Runs<'_>| draw(NAME, runs, true);
+    Figure::of_runs(
+        NAME,
+        "the same, one run of every state",
+        &choice::STATES,
+        draw,
+    )
+    .for_families([&TANK])
+}
 
 /// The part of a run that is shown larger (s).
 const BEGIN: f64 = 1.0;
@@ -49,66 +42,45 @@ const KINDS: [&str; 3] = [
     "potential, zero at the settled height",
 ];
 
-impl Figure for Energies {
-    fn name(&self) -> &'static str {
-        self.name
-    }
-
-    fn description(&self) -> String {
-        self.description.to_owned()
-    }
-
-    fn default_runs(&self) -> Option<&'static str> {
-        Some(self.default_runs)
-    }
-
-    fn families(&self) -> Vec<&'static Family> {
-        vec![&TANK]
-    }
-
-    fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
-        let runs = choice::runs(source, self.choice)?;
-        let (common, places) = choice::places(&runs);
-        let mut panels = Vec::new();
-        for (run, mut head) in runs.iter().zip(places) {
-            if self.with_states {
-                let state = run.row.verdict.label.name.replace('-', " ");
-                match head.first_mut() {
-                    Some(first) => *first = format!("{state}: {first}"),
-                    None => head.push(state),
-                }
+/// Draws energies over time; `with_states`: heads name the states.
+fn draw(name: &'static str, runs: &Runs<'_>, with_states: bool) -> Result<Svg, PlotError> {
+    let mut panels = Vec::new();
+    for run in &runs.shown {
+        let mut head = run.name.clone();
+        if with_states {
+            let state = run.verdict.label.name.replace('-', " ");
+            match head.first_mut() {
+                Some(first) => *first = format!("{state}: {first}"),
+                None => head.push(state),
             }
-            panels.extend(of_run(run, head, &run.record()?));
         }
-        let unit = chart::scaled("J", &mut panels);
-        Chart {
-            name: self.name,
-            common,
-            panels,
-            columns: 2,
-            height: if runs.len() == 1 { px(240) } else { px(130) },
-            x_label: "time (s)".to_owned(),
-            y_label: format!("mean energy of a sphere ({unit})"),
-            legend: palette::LINES
-                .into_iter()
-                .zip(KINDS.map(str::to_owned))
-                .collect(),
-            notes: if self.with_states {
-                choice::left_out(source).into_iter().collect()
-            } else {
-                Vec::new()
-            },
-        }
-        .draw(source)
+        panels.extend(of_run(run, head, run.record()?.as_ref()));
     }
+    let unit = chart::scaled("J", &mut panels);
+    let single = runs.shown.len() == 1;
+    Chart {
+        name,
+        common: runs.common.clone(),
+        panels,
+        columns: 2,
+        height: if single { px(240) } else { px(130) },
+        x_label: "time (s)".to_owned(),
+        y_label: format!("mean energy of a sphere ({unit})"),
+        legend: palette::LINES
+            .into_iter()
+            .zip(KINDS.map(str::to_owned))
+            .collect(),
+        notes: Vec::from_iter(runs.left_out.clone().filter(|_| with_states)),
+    }
+    .draw(&runs.origin)
 }
 
 /// Mean energies of a sphere over time (s, J): the whole run, and its begin.
-fn of_run(run: &Run<'_>, head: Vec<String>, record: &RunRecord) -> [Panel; 2] {
+fn of_run(run: &ShownRun<'_>, head: Vec<String>, record: &RunRecord) -> [ChartPanel; 2] {
     let observations = &record.observations;
     let spheres = record.radius.len().max(1) as f64;
     let duration = record.scene.time.duration;
-    let settled = run.row.verdict.value("settle_time");
+    let settled = run.verdict.value("settle_time");
     let settled = settled.unwrap_or((1.0 - END) * duration);
     let zero = mean_after(&observations.time, &observations.gravitational, settled);
     let kinds = [
@@ -118,13 +90,13 @@ fn of_run(run: &Run<'_>, head: Vec<String>, record: &RunRecord) -> [Panel; 2] {
     ];
     let kinds = kinds.into_iter().zip(palette::LINES);
     let lines = kinds.map(|((values, zero), color)| {
-        let mut line = Line::over(&observations.time, values, color);
+        let mut line = ChartLine::over(&observations.time, values, color);
         for point in &mut line.points {
             point.1 = (point.1 - zero) / spheres;
         }
         line
     });
-    let lines: Vec<Line> = lines.collect();
+    let lines: Vec<ChartLine> = lines.collect();
     let begin = if duration > BEGIN {
         BEGIN
     } else {
@@ -135,7 +107,7 @@ fn of_run(run: &Run<'_>, head: Vec<String>, record: &RunRecord) -> [Panel; 2] {
         _ => format!("first {} s", numbers::number(begin)),
     };
     [(head, duration), (vec![larger], begin)]
-        .map(|(head, end)| Panel::new(head, (0.0, end), lines.clone()))
+        .map(|(head, end)| ChartPanel::new(head, (0.0, end), lines.clone()))
 }
 
 /// Mean of the values from a time on; the last value if there are none.

@@ -1,27 +1,31 @@
 //! The ledger of a run: where its energy is and went, and what the integrator got wrong.
 
-use super::chart::{self, Chart, Line, Panel};
+use super::chart::{self, Chart, ChartLine, ChartPanel};
 use super::style::px;
 use super::svg::Svg;
-use super::{PlotError, palette};
+use super::{Figure, PlotError, palette};
 use crate::observe::Observations;
 use crate::record::RunRecord;
 use plotters::style::BLACK;
 
 /// The name of a kind of energy, and its values over time (J).
-type Account = (&'static str, Line);
+type Account = (&'static str, ChartLine);
 
-/// Draws the ledger of a run.
-///
-/// # Errors
-/// [`PlotError::NoLedger`] if the record holds none.
-pub fn draw(record: &RunRecord) -> Result<Svg, PlotError> {
+pub(super) fn figure() -> Figure {
+    let description = "where the energy went, from the record of one run with its ledger";
+    Figure::of_record("ledger", description, draw)
+}
+
+fn draw(record: &RunRecord) -> Result<Svg, PlotError> {
     let observations = &record.observations;
     if observations.residual.is_empty() {
-        return Err(PlotError::NoLedger);
+        return Err(PlotError::nothing(
+            "the record holds no ledger of energy; add `ledger = true` to [output] of the scene \
+             and run it again",
+        ));
     }
     let accounts = accounts(observations);
-    let residual = Line::over(&observations.time, &observations.residual, BLACK);
+    let residual = ChartLine::over(&observations.time, &observations.residual, BLACK);
     let legend = accounts.iter();
     let legend = legend
         .map(|(name, line)| (line.color, (*name).to_owned()))
@@ -53,7 +57,7 @@ pub fn draw(record: &RunRecord) -> Result<Svg, PlotError> {
 /// All kinds of energy that the run knew.
 fn accounts(observations: &Observations) -> Vec<Account> {
     let [blue, red, green, pink, orange, light_blue] = palette::DISTINCT;
-    let line = |values, color| Line::over(&observations.time, values, color);
+    let line = |values, color| ChartLine::over(&observations.time, values, color);
     let mut gravitational = line(&observations.gravitational, green);
     let start = gravitational.points.first().map_or(0.0, |point| point.1);
     for point in &mut gravitational.points {
@@ -87,10 +91,10 @@ fn accounts(observations: &Observations) -> Vec<Account> {
 }
 
 /// A panel in the unit that its largest value asks for, which its head names.
-fn panel(head: &str, lines: Vec<Line>) -> Panel {
+fn panel(head: &str, lines: Vec<ChartLine>) -> ChartPanel {
     let ends = lines.iter().filter_map(|line| line.points.last());
     let end = ends.map(|point| point.0).fold(0.0, f64::max);
-    let mut panel = Panel::new(Vec::new(), (0.0, end), lines);
+    let mut panel = ChartPanel::new(Vec::new(), (0.0, end), lines);
     let unit = chart::scaled("J", std::slice::from_mut(&mut panel));
     panel.head.push(format!("{head} ({unit})"));
     panel

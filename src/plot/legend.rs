@@ -1,6 +1,6 @@
 //! The legend: entries in lines that break where the room ends.
 
-use super::style::{self, Drawn, Fill, SMALL, Sheet, letters, px};
+use super::style::{self, Drawn, FigureSheet, Fill, SMALL, letters, px};
 use super::text;
 use plotters::element::{Circle, PathElement};
 use plotters::style::text_anchor::{HPos, VPos};
@@ -15,7 +15,7 @@ const GAPS: (i32, i32) = (px(7), px(16));
 
 /// The small picture of an entry.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Key {
+pub(super) enum LegendKey {
     /// A colour or pattern.
     Fill(Fill),
     /// The mark of cells in which only this share of the seeds agree.
@@ -38,13 +38,13 @@ pub(super) enum Key {
 
 /// An entry of a legend.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Entry {
-    pub(super) key: Key,
+pub(super) struct LegendEntry {
+    pub(super) key: LegendKey,
     pub(super) text: String,
 }
 
-impl Entry {
-    pub(super) fn new(key: Key, text: &str) -> Self {
+impl LegendEntry {
+    pub(super) fn new(key: LegendKey, text: &str) -> Self {
         let text = text.to_owned();
         Self { key, text }
     }
@@ -52,7 +52,7 @@ impl Entry {
 
 /// Entries with their places.
 pub(super) struct Legend {
-    entries: Vec<(Entry, (i32, i32))>,
+    entries: Vec<(LegendEntry, (i32, i32))>,
     width: i32,
     height: i32,
     /// Side of the cells whose marks of disagreement are explained.
@@ -61,7 +61,7 @@ pub(super) struct Legend {
 
 impl Legend {
     /// Places the entries in lines no wider than `room`.
-    pub(super) fn new(entries: Vec<Entry>, room: i32) -> Self {
+    pub(super) fn new(entries: Vec<LegendEntry>, room: i32) -> Self {
         let mut legend = Self {
             entries: Vec::new(),
             width: 0,
@@ -89,7 +89,7 @@ impl Legend {
     }
 
     /// Draws it with its upper left corner at `origin`.
-    pub(super) fn draw(&self, sheet: &Sheet<'_>, origin: (i32, i32)) -> Drawn {
+    pub(super) fn draw(&self, sheet: &FigureSheet<'_>, origin: (i32, i32)) -> Drawn {
         for (entry, place) in &self.entries {
             let (left, top) = (origin.0 + place.0, origin.1 + place.1);
             let middle = top + LINE / 2;
@@ -101,29 +101,34 @@ impl Legend {
     }
 }
 
-fn draw_key(sheet: &Sheet<'_>, key: Key, (left, middle): (i32, i32), cell: i32) -> Drawn {
+fn draw_key(
+    sheet: &FigureSheet<'_>,
+    key: LegendKey,
+    (left, middle): (i32, i32),
+    cell: i32,
+) -> Drawn {
     let (right, top, bottom) = (left + KEY.0, middle - KEY.1 / 2, middle + KEY.1 / 2);
     let corners = [(left, top), (right, bottom)];
     let centre = (left.midpoint(right), middle);
     match key {
-        Key::Fill(fill) => style::paint(sheet, corners, fill)?,
-        Key::Agreement(agreement) => {
+        LegendKey::Fill(fill) => style::paint(sheet, corners, fill)?,
+        LegendKey::Agreement(agreement) => {
             style::fill(sheet, corners, WHITE)?;
             style::disagreement(sheet, centre, agreement, cell)?;
         }
-        Key::Curve => return style::curve(sheet, &[(left, middle), (right, middle)]),
-        Key::Border => return style::border(sheet, &[(left, middle), (right, middle)]),
-        Key::Mark(color) => return style::mark(sheet, centre, color),
-        Key::Dashes => return style::dashes(sheet, &[(left, middle), (right, middle)]),
-        Key::Dot(color) => {
+        LegendKey::Curve => return style::curve(sheet, &[(left, middle), (right, middle)]),
+        LegendKey::Border => return style::border(sheet, &[(left, middle), (right, middle)]),
+        LegendKey::Mark(color) => return style::mark(sheet, centre, color),
+        LegendKey::Dashes => return style::dashes(sheet, &[(left, middle), (right, middle)]),
+        LegendKey::Dot(color) => {
             let middle = (left.midpoint(right), middle);
             return sheet.draw(&Circle::new(middle, px(3), color.filled()));
         }
-        Key::Ring(color) => {
+        LegendKey::Ring(color) => {
             let middle = (left.midpoint(right), middle);
             return sheet.draw(&Circle::new(middle, px(5), color.stroke_width(15)));
         }
-        Key::Line(color) => {
+        LegendKey::Line(color) => {
             let ends = [(left, middle), (right, middle)];
             return sheet.draw(&PathElement::new(ends, style::line(color)));
         }

@@ -4,7 +4,7 @@
 use super::chart::Bar;
 use super::color_bar::ColorBar;
 use super::diagram::{Diagram, Look};
-use super::grid::Grid;
+use super::grid::PanelGrid;
 use super::style::Fill;
 use super::svg::Svg;
 use super::{Figure, PlotError, Source};
@@ -15,7 +15,7 @@ use plotters::style::RGBColor;
 use std::sync::LazyLock;
 
 /// A map of one measure of the verdicts.
-pub(super) struct Map {
+pub(super) struct MeasureMap {
     /// The measure's name, with dashes.
     name: &'static str,
     family: &'static Family,
@@ -23,11 +23,11 @@ pub(super) struct Map {
 }
 
 /// All maps: one of each measure of each family, what runs did before evidence of the sieves.
-pub(super) static MAPS: LazyLock<Vec<Map>> = LazyLock::new(|| {
+pub(super) static MAPS: LazyLock<Vec<MeasureMap>> = LazyLock::new(|| {
     let of_family = |family: &'static Family| {
         let mut measures: Vec<_> = family.measures().collect();
         measures.sort_by_key(|measure| measure.is_evidence);
-        let map = move |measure: &'static Measure| Map {
+        let map = move |measure: &'static Measure| MeasureMap {
             // Made once, for as long as the program runs.
             name: measure.name.replace('_', "-").leak(),
             family,
@@ -38,13 +38,18 @@ pub(super) static MAPS: LazyLock<Vec<Map>> = LazyLock::new(|| {
     FAMILIES.into_iter().flat_map(of_family).collect()
 });
 
+pub(super) fn figure(map: &'static MeasureMap) -> Figure {
+    let description = format!("map: {}", super::text::plain(&map.label(Units::Si)));
+    Figure::of_sweep(map.name, description, |source| map.draw(source)).for_families([map.family])
+}
+
 /// The maps of what runs of a family did, without the evidence of its sieves.
-pub(super) fn of_measures(family: &'static Family) -> impl Iterator<Item = &'static Map> {
+pub(super) fn of_measures(family: &'static Family) -> impl Iterator<Item = &'static MeasureMap> {
     let maps = MAPS.iter();
     maps.filter(move |map| map.family == family && !map.measure.is_evidence)
 }
 
-impl Map {
+impl MeasureMap {
     /// Quantity and unit, with markup.
     pub(super) fn label(&self, units: Units) -> String {
         let quantity = self.measure.quantity;
@@ -54,7 +59,7 @@ impl Map {
         }
     }
 
-    /// The bar of the mean of values of several runs; none without any.
+    /// The bar of the mean over several runs; `None` without values.
     pub(super) fn bar(&self, x: f64, values: &[f64], color: RGBColor) -> Option<Bar> {
         let Estimate { value, half_width } = Estimate::of_mean(values)?;
         let bar = Bar::about((x, value), half_width, color);
@@ -78,23 +83,9 @@ impl Map {
     fn mean(&self, source: &Source<'_>, point: &Point) -> Option<f64> {
         Estimate::of_mean(&self.values(source, point)).map(|mean| mean.value)
     }
-}
-
-impl Figure for Map {
-    fn name(&self) -> &'static str {
-        self.name
-    }
-
-    fn description(&self) -> String {
-        format!("map: {}", super::text::plain(&self.label(Units::Si)))
-    }
-
-    fn families(&self) -> Vec<&'static Family> {
-        vec![self.family]
-    }
 
     fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
-        let grid = Grid::new(source)?;
+        let grid = PanelGrid::new(source)?;
         let points = grid
             .panels
             .iter()

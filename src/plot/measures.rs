@@ -1,58 +1,55 @@
 //! Every measure of a sweep over its horizontal axis: means over the seeds, with their intervals.
 
-use super::chart::{self, Bar, Chart, Line, Panel};
-use super::grid::{Grid, GridAxis};
-use super::map::{self, Map};
-use super::scale::Span;
-use super::series::{self, Series};
-use super::spacing::Spacing;
+use super::chart::{self, Bar, Chart, ChartLine, ChartPanel};
+use super::grid::{GridAxis, PanelGrid};
+use super::map::{self, MeasureMap};
+use super::scale::AxisSpan;
+use super::series::{self, PointSeries};
+use super::spacing::AxisSpacing;
 use super::style::px;
 use super::svg::Svg;
 use super::{Figure, PlotError, Source};
 use crate::sweep::Sweep;
 
-/// Every measure over the horizontal axis.
-pub(super) struct MeasuresFigure;
+/// Name of the figure.
+const NAME: &str = "measures";
 
 /// Distance of the bars of two lines at one place, over the length of the axis: so that they do not
 /// hide each other.
 const ASIDE: f64 = 0.012;
 
-impl Figure for MeasuresFigure {
-    fn name(&self) -> &'static str {
-        "measures"
-    }
+pub(super) fn figure() -> Figure {
+    Figure::of_sweep(
+        NAME,
+        "every measure over the x axis: means over the seeds with their 95 % intervals",
+        draw,
+    )
+}
 
-    fn description(&self) -> String {
-        "every measure over the x axis: means over the seeds with their 95 % intervals".to_owned()
+fn draw(source: &Source<'_>) -> Result<Svg, PlotError> {
+    let axis = PanelGrid::new(source)?.x;
+    let (lines, left_out) = series::lines(source, &axis)?;
+    let panels: Vec<ChartPanel> = map::of_measures(source.table.family)
+        .filter_map(|map| panel(source, map, &lines, &axis))
+        .collect();
+    if panels.is_empty() {
+        return Err(PlotError::no_measures(NAME));
     }
-
-    fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
-        let axis = Grid::new(source)?.x;
-        let (lines, left_out) = series::lines(source, &axis)?;
-        let panels: Vec<Panel> = map::of_measures(source.table.family)
-            .filter_map(|map| panel(source, map, &lines, &axis))
-            .collect();
-        if panels.is_empty() {
-            let figure = self.name();
-            return Err(PlotError::NoMeasures { figure });
-        }
-        let named = lines.iter().filter(|line| !line.name.is_empty());
-        Chart {
-            name: self.name(),
-            columns: 2,
-            height: px(130),
-            panels,
-            x_label: axis.label(),
-            legend: named.map(|line| (line.color, line.name.clone())).collect(),
-            notes: [Some(note(source.sweep)), left_out]
-                .into_iter()
-                .flatten()
-                .collect(),
-            ..Chart::default()
-        }
-        .draw(source)
+    let named = lines.iter().filter(|line| !line.name.is_empty());
+    Chart {
+        name: NAME,
+        columns: 2,
+        height: px(130),
+        panels,
+        x_label: axis.label(),
+        legend: named.map(|line| (line.color, line.name.clone())).collect(),
+        notes: [Some(note(source.sweep)), left_out]
+            .into_iter()
+            .flatten()
+            .collect(),
+        ..Chart::default()
     }
+    .draw(&source.origin())
 }
 
 /// What bars are.
@@ -70,9 +67,14 @@ fn note(sweep: &Sweep) -> String {
 }
 
 /// The panel of a measure; none if no run has it.
-fn panel(source: &Source<'_>, map: &Map, lines: &[Series], axis: &GridAxis) -> Option<Panel> {
+fn panel(
+    source: &Source<'_>,
+    map: &MeasureMap,
+    lines: &[PointSeries],
+    axis: &GridAxis,
+) -> Option<ChartPanel> {
     // The axis of the phase diagram, on which points stand at their values.
-    let Span {
+    let AxisSpan {
         low,
         high,
         spacing,
@@ -83,12 +85,12 @@ fn panel(source: &Source<'_>, map: &Map, lines: &[Series], axis: &GridAxis) -> O
         let place = spacing.fraction(value, low, high) + ASIDE * lines;
         spacing.along(place, low, high)
     };
-    let mut panel = Panel {
+    let mut panel = ChartPanel {
         head: vec![map.label(source.sweep.scene.units())],
         x: (low, high),
-        spacing: [spacing.clone(), Spacing::Linear],
+        spacing: [spacing.clone(), AxisSpacing::Linear],
         ticks,
-        ..Panel::default()
+        ..ChartPanel::default()
     };
     for (index, line) in lines.iter().enumerate() {
         let from_middle = index as f64 - 0.5 * (lines.len() - 1) as f64;
@@ -102,7 +104,7 @@ fn panel(source: &Source<'_>, map: &Map, lines: &[Series], axis: &GridAxis) -> O
             .collect();
         // A line between two points would only repeat them.
         if bars.len() > 2 {
-            panel.lines.push(Line {
+            panel.lines.push(ChartLine {
                 points: bars.iter().map(|bar| bar.at).collect(),
                 color: line.color,
             });

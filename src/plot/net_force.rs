@@ -5,78 +5,71 @@
 //! that the lift at the scene's own Omega is the scene's updraught, whether that depends on Omega
 //! or not.
 
-use super::chart::{self, Chart, Line, Panel, samples};
+use super::chart::{self, Chart, ChartLine, ChartPanel, samples};
 use super::critical_rotation::{radii, volume};
 use super::style::px;
 use super::svg::Svg;
 use super::{Figure, PlotError, Source, numbers, palette};
-use crate::classify::{Family, TANK};
+use crate::classify::TANK;
 use crate::scene::Scene;
 use crate::theory::unshielded_lift;
 
-/// The net vertical force over the radius.
-pub(super) struct NetForce;
+/// Name of the figure.
+const NAME: &str = "net-force";
 
-/// Rotations that are shown, over that of the scene.
+/// Rotations that are shown, over the rotation of the scene.
 const ROTATIONS: [f64; 3] = [0.5, 0.75, 1.0];
 
-impl Figure for NetForce {
-    fn name(&self) -> &'static str {
-        "net-force"
-    }
-
-    fn description(&self) -> String {
-        "theory: net vertical force in a single layer over the radius, three rotations (eq. 46)"
-            .to_owned()
-    }
-
-    fn families(&self) -> Vec<&'static Family> {
-        vec![&TANK]
-    }
-
-    fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
-        let scene = &source.sweep.scene;
-        let largest = radii(source).1;
-        let mut lines = Vec::new();
-        for (share, color) in ROTATIONS.into_iter().zip(palette::LINES) {
-            let point = |radius: f64| Some((radius * 1e3, net_force(scene, radius, share)?));
-            let points: Option<Vec<_>> = samples(0.0, largest).map(point).collect();
-            let points = points.ok_or(NEEDS)?;
-            lines.push(Line { points, color });
-        }
-        let mut panels = vec![Panel::new(Vec::new(), (0.0, largest * 1e3), lines)];
-        let unit = chart::scaled("N", &mut panels);
-        let omega = scene.dem.effects.swirl.as_ref().ok_or(NEEDS)?.omega;
-        let name = |share: f64| {
-            let own = if share == 1.0 {
-                ", as in the scene"
-            } else {
-                ""
-            };
-            format!("$Ω$ = {} rad/s{own}", numbers::number(share * omega))
-        };
-        Chart {
-            name: self.name(),
-            legend: palette::LINES
-                .into_iter()
-                .zip(ROTATIONS.map(name))
-                .collect(),
-            panels,
-            columns: 1,
-            height: px(400),
-            x_label: "radius of the sphere $r$ (mm)".to_owned(),
-            y_label: format!("net vertical force $F_z$ ({unit})"),
-            notes: notes(scene),
-            ..Chart::default()
-        }
-        .draw(source)
-    }
+pub(super) fn figure() -> Figure {
+    Figure::of_sweep(
+        NAME,
+        "theory: net vertical force in a single layer over the radius, three rotations (eq. 46)",
+        draw,
+    )
+    .for_families([&TANK])
 }
 
-const NEEDS: PlotError = PlotError::Scene {
-    figure: "net-force",
-    needs: "gravity, drag, swirl and updraught",
-};
+fn draw(source: &Source<'_>) -> Result<Svg, PlotError> {
+    let scene = &source.sweep.scene;
+    let largest = radii(source).1;
+    let mut lines = Vec::new();
+    for (share, color) in ROTATIONS.into_iter().zip(palette::LINES) {
+        let point = |radius: f64| Some((radius * 1e3, net_force(scene, radius, share)?));
+        let points: Option<Vec<_>> = samples(0.0, largest).map(point).collect();
+        let points = points.ok_or_else(needs)?;
+        lines.push(ChartLine { points, color });
+    }
+    let mut panels = vec![ChartPanel::new(Vec::new(), (0.0, largest * 1e3), lines)];
+    let unit = chart::scaled("N", &mut panels);
+    let omega = scene.dem.effects.swirl.as_ref().ok_or_else(needs)?.omega;
+    let name = |share: f64| {
+        let own = if share == 1.0 {
+            ", as in the scene"
+        } else {
+            ""
+        };
+        format!("$Ω$ = {} rad/s{own}", numbers::number(share * omega))
+    };
+    Chart {
+        name: NAME,
+        legend: palette::LINES
+            .into_iter()
+            .zip(ROTATIONS.map(name))
+            .collect(),
+        panels,
+        columns: 1,
+        height: px(400),
+        x_label: "radius of the sphere $r$ (mm)".to_owned(),
+        y_label: format!("net vertical force $F_z$ ({unit})"),
+        notes: notes(scene),
+        ..Chart::default()
+    }
+    .draw(&source.origin())
+}
+
+fn needs() -> PlotError {
+    PlotError::needs(NAME, "gravity, drag, swirl and updraught")
+}
 
 /// What the curves assume and the scene does not.
 fn notes(scene: &Scene) -> Vec<String> {

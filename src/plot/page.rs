@@ -2,10 +2,10 @@
 
 use super::axes::Axes;
 use super::canvas::{self, Body};
-use super::legend::{Entry, Legend};
-use super::scale::{Room, Scale, Span};
-use super::style::{Drawn, Failed, LABEL, MARGIN, SMALL, Sheet, TICK, WIDTH, letters, px};
-use super::words::{LINE, Words};
+use super::legend::{Legend, LegendEntry};
+use super::scale::{AxisRoom, AxisScale, AxisSpan};
+use super::style::{Drawn, Failed, FigureSheet, LABEL, MARGIN, SMALL, TICK, WIDTH, letters, px};
+use super::words::{FigureWords, LINE};
 use super::{PlotError, text};
 use plotters::style::FontTransform;
 use plotters::style::text_anchor::{HPos, VPos};
@@ -23,41 +23,41 @@ const LEAST_PANEL: i32 = px(90);
 const TICKS_BELOW: i32 = 2 * TICK + SMALL + px(2);
 /// The frame of a panel.
 #[derive(Clone, Debug)]
-pub(super) struct Frame {
+pub(super) struct PanelFrame {
     /// What stands above it, with markup: items of a list, which breaks between them.
     pub(super) head: Vec<String>,
-    pub(super) x: Span,
-    pub(super) y: Span,
+    pub(super) x: AxisSpan,
+    pub(super) y: AxisSpan,
 }
 
 /// What stands on a page.
 #[derive(Default)]
-pub(super) struct Plan<'a> {
+pub(super) struct PagePlan<'a> {
     pub(super) title: Option<&'a str>,
     /// What stands below the title and holds for all panels, as items of a list.
     pub(super) common: &'a [String],
     /// Panels, row by row.
-    pub(super) frames: Vec<Frame>,
+    pub(super) frames: Vec<PanelFrame>,
     /// Panels per row.
     pub(super) columns: usize,
     /// What stands right of each row.
     pub(super) row_heads: Vec<String>,
     /// Height of a panel; the greatest one if it has an aspect.
     pub(super) height: i32,
-    /// Width of a panel over its height; none where it is as wide as there is room.
+    /// Width of a panel over its height; `None` if it takes all the width there is.
     pub(super) aspect: Option<f64>,
     /// Width of what is drawn right of the panels, such as a colour bar; zero for none.
     pub(super) aside: i32,
     /// Labels of the horizontal and the vertical axis.
     pub(super) labels: [String; 2],
-    pub(super) legend: Vec<Entry>,
+    pub(super) legend: Vec<LegendEntry>,
     /// Whether the legend stands right of the panels, rather than below.
     pub(super) beside: bool,
     /// Sentences below everything.
     pub(super) notes: &'a [String],
 }
 
-impl Plan<'_> {
+impl PagePlan<'_> {
     /// Whether a panel has tick labels left of it and below: no neighbour has the same.
     fn has_ticks(&self, index: usize) -> (bool, bool) {
         let frame = &self.frames[index];
@@ -70,11 +70,16 @@ impl Plan<'_> {
     }
 
     /// The largest that a length of the scales is, of the axes that `span` chooses.
-    fn most(&self, span: fn(&Frame) -> &Span, room: Room, length: impl Fn(&Scale) -> i32) -> i32 {
+    fn most(
+        &self,
+        span: fn(&PanelFrame) -> &AxisSpan,
+        room: AxisRoom,
+        length: impl Fn(&AxisScale) -> i32,
+    ) -> i32 {
         let scales = self
             .frames
             .iter()
-            .map(|frame| Scale::new(span(frame), room));
+            .map(|frame| AxisScale::new(span(frame), room));
         scales.map(|scale| length(&scale)).max().unwrap_or(0)
     }
 }
@@ -93,23 +98,23 @@ struct Across {
 
 impl Across {
     /// The lengths, and the legend that fits.
-    fn new(plan: &Plan<'_>) -> (Self, Legend) {
+    fn new(plan: &PagePlan<'_>) -> (Self, Legend) {
         let columns = plan.columns as i32;
         let only = |condition: bool, length: i32| if condition { length } else { 0 };
-        let room = Room::Up(plan.height);
-        let ticks = 2 * TICK + plan.most(|frame| &frame.y, room, Scale::label_width);
+        let room = AxisRoom::Up(plan.height);
+        let ticks = 2 * TICK + plan.most(|frame| &frame.y, room, AxisScale::label_width);
         let left = MARGIN + ticks + only(!plan.labels[1].is_empty(), LABEL + px(8));
         // The half of the first tick label may need more.
         let widest = (WIDTH - MARGIN - left) / columns;
-        let first = |scale: &Scale| scale.overhangs(widest)[0];
-        let left = left.max(MARGIN + plan.most(|frame| &frame.x, Room::Across(widest), first));
+        let first = |scale: &AxisScale| scale.overhangs(widest)[0];
+        let left = left.max(MARGIN + plan.most(|frame| &frame.x, AxisRoom::Across(widest), first));
         let room = only(!plan.beside, WIDTH - MARGIN - left);
         let legend = Legend::new(plan.legend.clone(), room);
         let heads = only(!plan.row_heads.is_empty(), ROW_HEAD);
         let aside = plan.aside + only(plan.beside, legend.size().0);
         // The widest panel that could be, for the half of a tick label that reaches beyond it.
         let widest = (WIDTH - MARGIN - left) / columns;
-        let room = Room::Across(widest);
+        let room = AxisRoom::Across(widest);
         let beyond = plan.most(
             |frame| &frame.x,
             room,
@@ -127,7 +132,7 @@ impl Across {
             Some(aspect) => (f64::from(plan.height) * aspect) as i32,
             None => i32::MAX,
         };
-        let least = Room::Across(room / columns);
+        let least = AxisRoom::Across(room / columns);
         let least = plan.most(|frame| &frame.x, least, |scale| scale.needed_length(least));
         let panel = most.min((room / columns).max(LEAST_PANEL).max(least));
         let pitch = panel + gap;
@@ -145,29 +150,29 @@ impl Across {
 }
 
 /// A panel where it is on the page.
-struct Place {
+struct PanelPlace {
     corner: (i32, i32),
-    scales: (Scale, Scale),
+    scales: (AxisScale, AxisScale),
     /// Room for its tick labels, left of it and below; zero where it has none.
     ticks: (i32, i32),
 }
 
 /// Where everything is, in units of the canvas.
-pub(super) struct Page {
+pub(super) struct FigurePage {
     size: (i32, i32),
     /// Width and height of a panel.
     pub(super) panel: (i32, i32),
-    places: Vec<Place>,
-    words: Words,
+    places: Vec<PanelPlace>,
+    words: FigureWords,
     /// The legend and its upper left corner.
     pub(super) legend: (Legend, (i32, i32)),
     /// Upper left corner of what stands beside the panels.
     pub(super) aside: (i32, i32),
 }
 
-impl Page {
+impl FigurePage {
     /// Places everything, from above.
-    pub(super) fn new(mut plan: Plan<'_>) -> Self {
+    pub(super) fn new(mut plan: PagePlan<'_>) -> Self {
         plan.columns = plan.columns.clamp(1, plan.frames.len().max(1));
         let (across, legend) = Across::new(&plan);
         let height = |aspect| (f64::from(across.panel) / aspect) as i32;
@@ -175,7 +180,7 @@ impl Page {
             size: (across.page, 0),
             panel: (across.panel, plan.aspect.map_or(plan.height, height)),
             places: Vec::new(),
-            words: Words::new(across.page),
+            words: FigureWords::new(across.page),
             legend: (legend, (across.columns[0], 0)),
             aside: (across.aside, 0),
         };
@@ -194,9 +199,9 @@ impl Page {
     }
 
     /// Places a row of panels with their heads.
-    fn put_row(&mut self, plan: &Plan<'_>, across: &Across, row: usize) {
+    fn put_row(&mut self, plan: &PagePlan<'_>, across: &Across, row: usize) {
         let (width, height) = self.panel;
-        let (x, y) = (Room::Across(width), Room::Up(height));
+        let (x, y) = (AxisRoom::Across(width), AxisRoom::Up(height));
         let first = row * plan.columns;
         let frames = plan
             .frames
@@ -204,7 +209,8 @@ impl Page {
             .enumerate()
             .skip(first)
             .take(plan.columns);
-        let head = |frame: &Frame| text::wrap_list(&frame.head, f64::from(SMALL), f64::from(width));
+        let head =
+            |frame: &PanelFrame| text::wrap_list(&frame.head, f64::from(SMALL), f64::from(width));
         let lines = frames.clone().map(|(_, frame)| head(frame).len() as i32);
         let above = lines.max().unwrap_or(0) * LINE;
         let top = self.words.bottom + if row > 0 { GAP.1 } else { 0 } + above;
@@ -220,9 +226,9 @@ impl Page {
             let head = head(frame);
             let begin = top - head.len() as i32 * LINE;
             self.words.lines(head, (left + width / 2, begin));
-            self.places.push(Place {
+            self.places.push(PanelPlace {
                 corner: (left, top),
-                scales: (Scale::new(&frame.x, x), Scale::new(&frame.y, y)),
+                scales: (AxisScale::new(&frame.x, x), AxisScale::new(&frame.y, y)),
                 ticks,
             });
         }
@@ -271,7 +277,7 @@ impl Page {
     /// The axes of a panel.
     pub(super) fn axes<'s, 'c>(
         &self,
-        sheet: &'s Sheet<'c>,
+        sheet: &'s FigureSheet<'c>,
         index: usize,
     ) -> Result<Axes<'s, 'c>, Failed> {
         let place = &self.places[index];
@@ -285,12 +291,15 @@ impl Page {
     }
 
     /// Scales of a panel.
-    pub(super) fn scales(&self, index: usize) -> &(Scale, Scale) {
+    pub(super) fn scales(&self, index: usize) -> &(AxisScale, AxisScale) {
         &self.places[index].scales
     }
 
     /// Draws panels, then the words around them.
-    pub(super) fn draw(&self, panels: impl FnOnce(&Sheet<'_>) -> Drawn) -> Result<Body, PlotError> {
+    pub(super) fn draw(
+        &self,
+        panels: impl FnOnce(&FigureSheet<'_>) -> Drawn,
+    ) -> Result<Body, PlotError> {
         canvas::draw(self.size, |sheet| {
             panels(sheet)?;
             self.words.draw(sheet)?;

@@ -1,8 +1,8 @@
 //! The phase diagram: the state at every point of the grid (Rice, 2012, figures 13 and 14).
 
 use super::diagram::{Diagram, Look};
-use super::grid::Grid;
-use super::legend::{Entry, Key};
+use super::grid::PanelGrid;
+use super::legend::{LegendEntry, LegendKey};
 use super::style::Fill;
 use super::svg::Svg;
 use super::{Figure, PlotError, Source, palette};
@@ -10,23 +10,20 @@ use crate::classify::Label;
 use crate::classify::Point;
 use plotters::style::WHITE;
 
-/// The phase diagram.
-pub(super) struct PhaseDiagram;
+/// Name of the figure.
+const NAME: &str = "phase";
 
-impl Figure for PhaseDiagram {
-    fn name(&self) -> &'static str {
-        "phase"
-    }
-
-    fn description(&self) -> String {
+pub(super) fn figure() -> Figure {
+    Figure::of_sweep(
+        NAME,
         "phase diagram: the majority label at every point, paler and with a dot where seeds \
-         disagree, hatched where a run did not become steady"
-            .to_owned()
-    }
+         disagree, hatched where a run did not become steady",
+        draw,
+    )
+}
 
-    fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
-        with_diagram(self.name(), source, |diagram| diagram.draw(source))
-    }
+fn draw(source: &Source<'_>) -> Result<Svg, PlotError> {
+    with_diagram(NAME, source, |diagram| diagram.draw(source))
 }
 
 /// Has the phase diagram of a source drawn, under a name.
@@ -35,7 +32,7 @@ pub(super) fn with_diagram(
     source: &Source<'_>,
     draw: impl FnOnce(&Diagram<'_>) -> Result<Svg, PlotError>,
 ) -> Result<Svg, PlotError> {
-    let grid = Grid::new(source)?;
+    let grid = PanelGrid::new(source)?;
     let points: Vec<&Point> = grid
         .panels
         .iter()
@@ -46,15 +43,15 @@ pub(super) fn with_diagram(
         points.any(|point| has_majority(point) && point.label == *label)
     };
     let labels = source.table.family.labels().into_iter();
-    let mut legend: Vec<Entry> = labels
+    let mut legend: Vec<LegendEntry> = labels
         .filter(|label| occurs(label))
-        .map(|label| Entry::new(Key::Fill(fill(label)), &label.name.replace('-', " ")))
+        .map(|label| LegendEntry::new(LegendKey::Fill(fill(label)), &label.name.replace('-', " ")))
         .collect();
     legend.extend(of_disagreement(&points));
     let is_unsteady = |point: &Point| source.table.is_unsteady(point);
     if points.iter().any(|point| is_unsteady(point)) {
-        let key = Key::Fill(Fill::Falling(WHITE));
-        legend.push(Entry::new(key, "not steady"));
+        let key = LegendKey::Fill(Fill::Falling(WHITE));
+        legend.push(LegendEntry::new(key, "not steady"));
     }
     draw(&Diagram {
         name,
@@ -73,7 +70,7 @@ fn has_majority(point: &Point) -> bool {
 
 pub(super) fn fill(label: Label) -> Fill {
     match label {
-        // Its colour is that of the critical rotation.
+        // The colour of the critical rotation.
         Label::UNSTABLE => Fill::CrossHatch,
         _ => Fill::Color(palette::state(label)),
     }
@@ -82,7 +79,7 @@ pub(super) fn fill(label: Label) -> Fill {
 fn look(point: &Point, is_unsteady: bool) -> Look {
     if has_majority(point) {
         Look {
-            // In grey a pale colour may be that of another label: the mark says that it is pale.
+            // In grey print a pale colour may look like another label; the mark says it is pale.
             fill: match fill(point.label) {
                 Fill::Color(color) => {
                     let color = palette::faded(color, point.agreement);
@@ -104,7 +101,7 @@ fn look(point: &Point, is_unsteady: bool) -> Look {
 
 /// Entries of the legend for points whose seeds disagree: the largest and the smallest agreement
 /// that is a majority, and points without one.
-fn of_disagreement(points: &[&Point]) -> Vec<Entry> {
+fn of_disagreement(points: &[&Point]) -> Vec<LegendEntry> {
     let agreements = points.iter().map(|point| point.agreement);
     let marked = agreements.filter(|&agreement| agreement > 0.5 && agreement < 1.0);
     let mut ends: Vec<f64> = marked.collect();
@@ -113,15 +110,18 @@ fn of_disagreement(points: &[&Point]) -> Vec<Entry> {
     if ends.len() > 2 {
         ends.drain(1..ends.len() - 1);
     }
-    let mut entries: Vec<Entry> = ends
+    let mut entries: Vec<LegendEntry> = ends
         .into_iter()
         .map(|agreement| {
             let text = format!("{:.0} % of seeds agree", 100.0 * agreement);
-            Entry::new(Key::Agreement(agreement), &text)
+            LegendEntry::new(LegendKey::Agreement(agreement), &text)
         })
         .collect();
     if points.iter().any(|point| !has_majority(point)) {
-        entries.push(Entry::new(Key::Fill(Fill::Stipple), "no majority"));
+        entries.push(LegendEntry::new(
+            LegendKey::Fill(Fill::Stipple),
+            "no majority",
+        ));
     }
     entries
 }

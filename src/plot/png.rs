@@ -4,7 +4,7 @@ use resvg::tiny_skia::Pixmap;
 use std::collections::BTreeMap;
 
 /// Red, green and blue.
-type Color = [u8; 3];
+type Rgb8 = [u8; 3];
 
 /// Most colours of a palette.
 const MOST_COLORS: usize = 256;
@@ -59,21 +59,21 @@ pub(super) fn encode(
 }
 
 /// The most frequent colours, and for every colour the place of the nearest of them.
-fn palette(colors: impl Iterator<Item = Color>) -> (Vec<Color>, BTreeMap<Color, u8>) {
-    let mut counts: BTreeMap<Color, u64> = BTreeMap::new();
+fn palette(colors: impl Iterator<Item = Rgb8>) -> (Vec<Rgb8>, BTreeMap<Rgb8, u8>) {
+    let mut counts: BTreeMap<Rgb8, u64> = BTreeMap::new();
     for color in colors {
         *counts.entry(color).or_default() += 1;
     }
-    let mut palette: Vec<Color> = counts.keys().copied().collect();
+    let mut palette: Vec<Rgb8> = counts.keys().copied().collect();
     palette.sort_by_key(|color| std::cmp::Reverse(counts[color]));
     palette.truncate(MOST_COLORS);
-    let distance = |one: Color, other: Color| -> u32 {
+    let distance = |one: Rgb8, other: Rgb8| -> u32 {
         let channels = one.iter().zip(other);
         channels
             .map(|(one, other)| u32::from(one.abs_diff(other)).pow(2))
             .sum()
     };
-    let nearest = |color: Color| {
+    let nearest = |color: Rgb8| {
         let places = (0..=u8::MAX).zip(&palette);
         let nearest = places.min_by_key(|(_, it)| distance(color, **it));
         nearest.map_or(0, |(place, _)| place)

@@ -2,9 +2,9 @@
 //! as curves, and the runs.
 
 use super::critical;
-use super::diagram::{Curve, Diagram, Look, Stroke};
-use super::grid::{self, Grid, GridAxis, Panel};
-use super::legend::{Entry, Key};
+use super::diagram::{Diagram, Look, PanelCurve, Stroke};
+use super::grid::{self, GridAxis, GridPanel, PanelGrid};
+use super::legend::{LegendEntry, LegendKey};
 use super::phase;
 use super::style::Fill;
 use super::svg::Svg;
@@ -23,12 +23,12 @@ const BOUNDS: [f64; 2] = [0.84, 0.975];
 /// Share of a colour that is left in the bands, as for seeds of which this share agrees.
 const SHADES: [f64; 2] = [0.45, 0.75];
 
-/// The figure of a refined sweep.
-pub(super) struct RefinedDiagram;
+/// Name of the figure.
+const NAME: &str = "refined";
 
 /// A point of the grid.
 #[derive(Clone, Copy, Debug)]
-struct Cell {
+struct RefinedCell {
     code: Code,
     certainty: f64,
     /// The label of most runs that were made there.
@@ -37,47 +37,52 @@ struct Cell {
     is_unsteady: bool,
 }
 
-impl Figure for RefinedDiagram {
-    fn name(&self) -> &'static str {
-        "refined"
-    }
-
-    fn description(&self) -> String {
+pub(super) fn figure() -> Figure {
+    Figure::of_sweep(
+        NAME,
         "of a refined sweep: the most probable label at every point, paler in the bands of its \
-         borders; the borders, and the runs"
-            .to_owned()
-    }
+         borders; the borders, and the runs",
+        draw,
+    )
+}
 
-    fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
-        grid::check(source.sweep, source.table)?;
-        let learnt = Learnt::of(source.sweep, source.refining, source.table)?;
-        let learnt = learnt.ok_or(PlotError::NotRefined)?;
-        let (grid, places) = grid_of(source, &learnt)?;
-        let curves = curves(source, &learnt, &grid, &places);
-        let cells = || grid.panels.iter().flat_map(|it| it.cells.iter().flatten());
-        // Borders between places of one column are no curves.
-        let is_plane = grid.x.values.len() > 1 && grid.cells().1 > 1;
-        let diagram = Diagram {
-            name: self.name(),
-            grid: &grid,
-            look: &|cell: &Cell| Some(look(source, *cell, is_plane)),
-            empty: "no value".to_owned(),
-            legend: legend(source, &cells().copied().collect::<Vec<_>>()),
-            bar: None,
-        };
-        let mut entries = Curve::entries(&curves, critical::WORDS);
-        let mut all = curves.iter().flatten();
-        if all.any(|curve| curve.stroke == Stroke::Border && !curve.pieces.is_empty()) {
-            entries.push(Entry::new(Key::Border, "border"));
-        }
-        let title = source.sweep.title.as_deref();
-        let body = diagram.body(title, &curves, entries)?;
-        Ok(Svg::new(self.name(), source, &body))
+fn draw(source: &Source<'_>) -> Result<Svg, PlotError> {
+    grid::check(source.sweep, source.table)?;
+    let learnt = Learnt::of(source.sweep, source.refining, source.table)?;
+    let learnt = learnt.ok_or_else(|| {
+        PlotError::request(
+            "the figure `refined` needs a refined sweep: a table [refine] in its file, or `phase \
+             sweep --refine`",
+        )
+    })?;
+    let (grid, places) = grid_of(source, &learnt)?;
+    let curves = curves(source, &learnt, &grid, &places);
+    let cells = || grid.panels.iter().flat_map(|it| it.cells.iter().flatten());
+    // Borders between places of one column are no curves.
+    let is_plane = grid.x.values.len() > 1 && grid.cells().1 > 1;
+    let diagram = Diagram {
+        name: NAME,
+        grid: &grid,
+        look: &|cell: &RefinedCell| Some(look(source, *cell, is_plane)),
+        empty: "no value".to_owned(),
+        legend: legend(source, &cells().copied().collect::<Vec<_>>()),
+        bar: None,
+    };
+    let mut entries = PanelCurve::entries(&curves, critical::WORDS);
+    let mut all = curves.iter().flatten();
+    if all.any(|curve| curve.stroke == Stroke::Border && !curve.pieces.is_empty()) {
+        entries.push(LegendEntry::new(LegendKey::Border, "border"));
     }
+    let title = source.sweep.title.as_deref();
+    let body = diagram.body(title, &curves, entries)?;
+    Ok(Svg::new(NAME, &source.origin(), &body))
 }
 
 /// The grid of the figure, and a place of the lattice in each panel.
-fn grid_of(source: &Source<'_>, learnt: &Learnt) -> Result<(Grid<Cell>, Vec<usize>), PlotError> {
+fn grid_of(
+    source: &Source<'_>,
+    learnt: &Learnt,
+) -> Result<(PanelGrid<RefinedCell>, Vec<usize>), PlotError> {
     let sweep = source.sweep;
     let places = grid::places(sweep)?;
     let axis = |place: usize| {
@@ -90,8 +95,8 @@ fn grid_of(source: &Source<'_>, learnt: &Learnt) -> Result<(Grid<Cell>, Vec<usiz
         axis.values = shown_values(&axis.values);
         Some(axis)
     };
-    let mut grid = Grid {
-        x: axis(0).ok_or(PlotError::NoAxis)?,
+    let mut grid = PanelGrid {
+        x: axis(0).ok_or_else(PlotError::no_axis)?,
         y: axis(1),
         columns: panels_of(2),
         rows: panels_of(3),
@@ -138,7 +143,7 @@ fn grid_of(source: &Source<'_>, learnt: &Learnt) -> Result<(Grid<Cell>, Vec<usiz
                         indices[y.index] = height;
                     }
                     let place = lattice.place(&indices);
-                    cells.push(Some(Cell {
+                    cells.push(Some(RefinedCell {
                         code: learnt.map.label(place),
                         certainty: learnt.map.certainty(place),
                         of_runs: runs
@@ -149,7 +154,7 @@ fn grid_of(source: &Source<'_>, learnt: &Learnt) -> Result<(Grid<Cell>, Vec<usiz
                 }
             }
             let head = grid.columns.as_ref().zip(column);
-            grid.panels.push(Panel {
+            grid.panels.push(GridPanel {
                 head: head.map(|(axis, value)| axis.at(value)),
                 column,
                 row,
@@ -185,16 +190,16 @@ pub(super) fn shown_values(values: &[f64]) -> Vec<f64> {
 fn curves(
     source: &Source<'_>,
     learnt: &Learnt,
-    grid: &Grid<Cell>,
+    grid: &PanelGrid<RefinedCell>,
     places: &[usize],
-) -> Vec<Vec<Curve>> {
+) -> Vec<Vec<PanelCurve>> {
     let codes = learnt.map.codes();
     let pairs = || {
         let all = codes.iter().enumerate();
         all.flat_map(|(index, one)| codes[..index].iter().map(move |other| (*other, *one)))
     };
     let panels = grid.panels.iter().zip(places);
-    let of_panel = |(panel, place): (&Panel<Cell>, &usize)| {
+    let of_panel = |(panel, place): (&GridPanel<RefinedCell>, &usize)| {
         let mut curves = Vec::new();
         if let Some(y) = &grid.y {
             let plane = refine::LatticePlane {
@@ -211,7 +216,7 @@ fn curves(
                     .collect()
             };
             let pieces = pairs().flat_map(|(one, other)| plane.border(one, other));
-            curves.push(Curve {
+            curves.push(PanelCurve {
                 pieces: pieces.map(shown).collect(),
                 stroke: Stroke::Border,
             });
@@ -238,7 +243,7 @@ fn fill(source: &Source<'_>, code: Code, certainty: f64) -> Fill {
     }
 }
 
-fn look(source: &Source<'_>, cell: Cell, is_plane: bool) -> Look {
+fn look(source: &Source<'_>, cell: RefinedCell, is_plane: bool) -> Look {
     let fill = match fill(source, cell.code, cell.certainty) {
         Fill::Color(color) if cell.is_unsteady => Fill::Falling(color),
         fill => fill,
@@ -252,7 +257,7 @@ fn look(source: &Source<'_>, cell: Cell, is_plane: bool) -> Look {
 }
 
 /// The colour of the dot of a run: its own where another label is more probable.
-fn mark(source: &Source<'_>, cell: Cell, code: Code) -> RGBColor {
+fn mark(source: &Source<'_>, cell: RefinedCell, code: Code) -> RGBColor {
     match fill(source, code, 1.0) {
         _ if code == cell.code => BLACK,
         Fill::Color(color) => color,
@@ -261,7 +266,7 @@ fn mark(source: &Source<'_>, cell: Cell, code: Code) -> RGBColor {
 }
 
 /// Entries of the legend but for curves.
-fn legend(source: &Source<'_>, cells: &[Cell]) -> Vec<Entry> {
+fn legend(source: &Source<'_>, cells: &[RefinedCell]) -> Vec<LegendEntry> {
     let labels = source.table.family.labels().into_iter();
     let occurs = |code: Code| cells.iter().any(|cell| cell.code == code);
     let names = labels.map(|label| (label.code, label.name.replace('-', " ")));
@@ -269,9 +274,10 @@ fn legend(source: &Source<'_>, cells: &[Cell]) -> Vec<Entry> {
         .chain([(FAILED, "failed".to_owned())])
         .filter(|(code, _)| occurs(*code))
         .collect();
-    let entry =
-        |(code, name): &(Code, String)| Entry::new(Key::Fill(fill(source, *code, 1.0)), name);
-    let mut entries: Vec<Entry> = names.iter().map(entry).collect();
+    let entry = |(code, name): &(Code, String)| {
+        LegendEntry::new(LegendKey::Fill(fill(source, *code, 1.0)), name)
+    };
+    let mut entries: Vec<LegendEntry> = names.iter().map(entry).collect();
     // Bands in the colour that is seen most.
     let colored = names.iter().map(|(code, _)| *code);
     let colored = colored.filter(|code| matches!(fill(source, *code, 1.0), Fill::Color(_)));
@@ -282,20 +288,26 @@ fn legend(source: &Source<'_>, cells: &[Cell]) -> Vec<Entry> {
         for (words, [low, high]) in bands {
             let mut cells = cells.iter();
             if cells.any(|cell| (low..high).contains(&cell.certainty)) {
-                entries.push(Entry::new(Key::Fill(fill(source, code, low)), words));
+                entries.push(LegendEntry::new(
+                    LegendKey::Fill(fill(source, code, low)),
+                    words,
+                ));
             }
         }
     }
     if cells.iter().any(|cell| cell.is_unsteady) {
-        let key = Key::Fill(Fill::Falling(WHITE));
-        entries.push(Entry::new(key, "run that was not steady"));
+        let key = LegendKey::Fill(Fill::Falling(WHITE));
+        entries.push(LegendEntry::new(key, "run that was not steady"));
     }
-    entries.push(Entry::new(Key::Mark(BLACK), "run"));
+    entries.push(LegendEntry::new(LegendKey::Mark(BLACK), "run"));
     let marks = cells
         .iter()
         .filter_map(|cell| Some(mark(source, *cell, cell.of_runs?)));
     if let Some(color) = marks.into_iter().find(|it| *it != BLACK) {
-        entries.push(Entry::new(Key::Mark(color), "run of another label"));
+        entries.push(LegendEntry::new(
+            LegendKey::Mark(color),
+            "run of another label",
+        ));
     }
     entries
 }

@@ -1,7 +1,7 @@
 //! A scale: from the values of an axis to the canvas, with ticks that fit.
 
 use super::numbers::number;
-use super::spacing::Spacing;
+use super::spacing::AxisSpacing;
 use super::style::SMALL;
 use super::text;
 use super::ticks::{self, Tick, Ticks};
@@ -10,12 +10,12 @@ use std::ops::Range;
 
 /// The length of an axis (units of the canvas) and its direction.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Room {
+pub(super) enum AxisRoom {
     Across(i32),
     Up(i32),
 }
 
-impl Room {
+impl AxisRoom {
     fn length(self) -> f64 {
         let (Self::Across(length) | Self::Up(length)) = self;
         f64::from(length)
@@ -24,16 +24,16 @@ impl Room {
 
 /// The range of an axis.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Span {
+pub(super) struct AxisSpan {
     pub(super) low: f64,
     pub(super) high: f64,
-    pub(super) spacing: Spacing,
+    pub(super) spacing: AxisSpacing,
     pub(super) ticks: Ticks,
-    /// Size of the letters of its labels, where it is not that of small ones.
+    /// Size of the letters of its labels, if not the usual small one.
     pub(super) letters: Option<i32>,
 }
 
-impl Span {
+impl AxisSpan {
     /// A linear range with ticks at round numbers.
     pub(super) fn linear((low, high): (f64, f64)) -> Self {
         Self {
@@ -46,19 +46,19 @@ impl Span {
 
 /// A scale with its ticks.
 #[derive(Clone, Debug)]
-pub(super) struct Scale {
+pub(super) struct AxisScale {
     low: f64,
     high: f64,
-    spacing: Spacing,
+    spacing: AxisSpacing,
     /// Values and labels of the ticks.
     ticks: Vec<(f64, String)>,
     /// Size of their letters.
     pub(super) letters: i32,
 }
 
-impl Scale {
+impl AxisScale {
     /// The scale of a range, with the ticks that fit into `room`.
-    pub(super) fn new(span: &Span, room: Room) -> Self {
+    pub(super) fn new(span: &AxisSpan, room: AxisRoom) -> Self {
         let mut scale = Self {
             low: span.low,
             high: span.high,
@@ -121,12 +121,12 @@ impl Scale {
     }
 
     /// Length of an axis on which no two of these labels touch.
-    fn least_length(&self, ticks: &[Tick], room: Room) -> f64 {
+    fn least_length(&self, ticks: &[Tick], room: AxisRoom) -> f64 {
         let pairs = ticks.windows(2).map(|pair| {
             let [one, next] = [&pair[0], &pair[1]];
             let needed = match room {
-                Room::Up(_) => 1.2 * f64::from(SMALL),
-                Room::Across(_) => {
+                AxisRoom::Up(_) => 1.2 * f64::from(SMALL),
+                AxisRoom::Across(_) => {
                     let labels = 0.5 * (self.width(&one.1) + self.width(&next.1));
                     labels + 0.7 * f64::from(SMALL)
                 }
@@ -137,12 +137,12 @@ impl Scale {
     }
 
     /// Length of an axis that its labels need (units of the canvas).
-    pub(super) fn needed_length(&self, room: Room) -> i32 {
+    pub(super) fn needed_length(&self, room: AxisRoom) -> i32 {
         self.least_length(&self.ticks, room).ceil() as i32
     }
 }
 
-impl Ranged for Scale {
+impl Ranged for AxisScale {
     type FormatOption = NoDefaultFormatting;
     type ValueType = f64;
 
@@ -159,7 +159,7 @@ impl Ranged for Scale {
     }
 }
 
-impl ValueFormatter<f64> for Scale {
+impl ValueFormatter<f64> for AxisScale {
     fn format_ext(&self, value: &f64) -> String {
         let tick = self.ticks.iter().find(|(tick, _)| tick == value);
         tick.map_or_else(|| number(*value), |(_, label)| label.clone())
@@ -172,9 +172,9 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    fn span(low: f64, high: f64, spacing: Spacing, values: &[f64]) -> Span {
+    fn span(low: f64, high: f64, spacing: AxisSpacing, values: &[f64]) -> AxisSpan {
         let ticks = Ticks::Values(values.to_vec());
-        Span {
+        AxisSpan {
             low,
             high,
             spacing,
@@ -183,7 +183,7 @@ mod tests {
         }
     }
 
-    fn labels(scale: &Scale) -> Vec<&str> {
+    fn labels(scale: &AxisScale) -> Vec<&str> {
         scale
             .ticks
             .iter()
@@ -194,21 +194,27 @@ mod tests {
     #[test]
     fn few_short_values_are_the_ticks() {
         let omega = [0.0, 2.0, 4.0, 6.0, 8.0, 12.0, 16.0, 24.0, 40.0];
-        let scale = Scale::new(&span(-1.0, 48.0, Spacing::Linear, &omega), Room::Up(4000));
+        let scale = AxisScale::new(
+            &span(-1.0, 48.0, AxisSpacing::Linear, &omega),
+            AxisRoom::Up(4000),
+        );
         assert_eq!(
             labels(&scale),
             ["0", "2", "4", "6", "8", "12", "16", "24", "40"]
         );
-        let scale = Scale::new(&span(-1.0, 48.0, Spacing::Linear, &omega), Room::Up(1000));
+        let scale = AxisScale::new(
+            &span(-1.0, 48.0, AxisSpacing::Linear, &omega),
+            AxisRoom::Up(1000),
+        );
         assert_eq!(labels(&scale), ["0", "10", "20", "30", "40"]);
     }
 
     #[test]
     fn values_of_many_digits_give_way_to_round_numbers() {
         let ratios: Vec<f64> = (4..=12).map(|r| f64::from(r) * 5e-4 / 0.06).collect();
-        let scale = Scale::new(
-            &span(0.029, 0.104, Spacing::Linear, &ratios),
-            Room::Across(5000),
+        let scale = AxisScale::new(
+            &span(0.029, 0.104, AxisSpacing::Linear, &ratios),
+            AxisRoom::Across(5000),
         );
         assert_eq!(
             labels(&scale),
@@ -234,26 +240,29 @@ mod tests {
                 ["−3.00004", "−3.00003", "−3.00002", "−3.00001", "−3.00000"],
             ),
         ] {
-            let spacing = Spacing::Linear;
-            let scale = Scale::new(&span(values[0], values[2], spacing, &values), Room::Up(800));
+            let spacing = AxisSpacing::Linear;
+            let scale = AxisScale::new(
+                &span(values[0], values[2], spacing, &values),
+                AxisRoom::Up(800),
+            );
             assert_eq!(labels(&scale), expected);
         }
         let values = [0.0, 0.01, 0.1, 1.0, 100.0];
-        let spacing = Spacing::equal(values.to_vec());
-        let scale = Scale::new(&span(0.0, 100.0, spacing, &values), Room::Across(4000));
+        let spacing = AxisSpacing::equal(values.to_vec());
+        let scale = AxisScale::new(&span(0.0, 100.0, spacing, &values), AxisRoom::Across(4000));
         assert_eq!(labels(&scale), ["0", "0.01", "0.1", "1", "100"]);
     }
 
     #[test]
     fn logarithmic_ticks() {
-        let scale = Scale::new(
-            &span(8e-7, 2e-2, Spacing::Logarithmic, &[]),
-            Room::Across(4000),
+        let scale = AxisScale::new(
+            &span(8e-7, 2e-2, AxisSpacing::Logarithmic, &[]),
+            AxisRoom::Across(4000),
         );
         assert_eq!(labels(&scale), ["10⁻⁶", "10⁻⁵", "10⁻⁴", "10⁻³", "10⁻²"]);
-        let scale = Scale::new(
-            &span(0.9, 110.0, Spacing::Logarithmic, &[]),
-            Room::Across(4000),
+        let scale = AxisScale::new(
+            &span(0.9, 110.0, AxisSpacing::Logarithmic, &[]),
+            AxisRoom::Across(4000),
         );
         assert_eq!(labels(&scale), ["1", "2", "5", "10", "20", "50", "100"]);
     }
@@ -268,7 +277,7 @@ mod tests {
             length in 900..6000_i32,
             vertical: bool,
         ) {
-            let room = if vertical { Room::Up(length) } else { Room::Across(length) };
+            let room = if vertical { AxisRoom::Up(length) } else { AxisRoom::Across(length) };
             let (low, most) = (values[0], values[values.len() - 1] - values[0]);
             let values: Vec<f64> = match kind {
                 1 => values.iter().map(|value| value - low + 1e-3 * most).collect(),
@@ -276,11 +285,11 @@ mod tests {
             };
             let (first, last) = (values[0], values[values.len() - 1]);
             let spacing = match kind {
-                0 => Spacing::Linear,
-                1 => Spacing::Logarithmic,
-                _ => Spacing::equal(values.clone()),
+                0 => AxisSpacing::Linear,
+                1 => AxisSpacing::Logarithmic,
+                _ => AxisSpacing::equal(values.clone()),
             };
-            let scale = Scale::new(&span(first, last, spacing, &values), room);
+            let scale = AxisScale::new(&span(first, last, spacing, &values), room);
             prop_assert!(scale.ticks.len() >= 2, "{values:?}");
             for pair in scale.ticks.windows(2) {
                 let half = 0.5 * (pair[1].0 - pair[0].0);
@@ -298,8 +307,8 @@ mod tests {
             length in 300..6000_i32,
             vertical: bool,
         ) {
-            let room = if vertical { Room::Up(length) } else { Room::Across(length) };
-            let scale = Scale::new(&Span::linear((low, low + span)), room);
+            let room = if vertical { AxisRoom::Up(length) } else { AxisRoom::Across(length) };
+            let scale = AxisScale::new(&AxisSpan::linear((low, low + span)), room);
             let slack = 1e-6 * span;
             for (tick, _) in &scale.ticks {
                 prop_assert!((low - slack..=low + span + slack).contains(tick));
@@ -310,7 +319,7 @@ mod tests {
             if scale.ticks.len() > 2 || vertical {
                 prop_assert!(f64::from(needed) <= room.length());
             }
-            let there = if vertical { Room::Up(needed) } else { Room::Across(needed) };
+            let there = if vertical { AxisRoom::Up(needed) } else { AxisRoom::Across(needed) };
             prop_assert!(scale.least_length(&scale.ticks, there) <= f64::from(needed));
         }
     }

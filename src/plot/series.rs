@@ -6,7 +6,7 @@ use crate::classify::Point;
 use plotters::style::RGBColor;
 
 /// The points of a sweep along one axis.
-pub(super) struct Series {
+pub(super) struct PointSeries {
     /// Values on the other axes, with markup; empty if there are none.
     pub(super) name: String,
     pub(super) color: RGBColor,
@@ -22,7 +22,7 @@ type Group = (Vec<f64>, Vec<(f64, Point)>);
 pub(super) fn lines(
     source: &Source<'_>,
     axis: &GridAxis,
-) -> Result<(Vec<Series>, Option<String>), PlotError> {
+) -> Result<(Vec<PointSeries>, Option<String>), PlotError> {
     grid::check(source.sweep, source.table)?;
     let mut groups: Vec<Group> = Vec::new();
     for point in source.table.points() {
@@ -49,7 +49,7 @@ pub(super) fn lines(
         .zip(colors)
         .map(|((_, (values, mut points)), &color)| {
             points.sort_by(|one, other| one.0.total_cmp(&other.0));
-            Series {
+            PointSeries {
                 name: name(source, axis, &values),
                 color,
                 points,

@@ -4,7 +4,7 @@ use crate::refine::{self, LatticeAxis};
 
 /// How far apart the values of an axis stand.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) enum Spacing {
+pub(super) enum AxisSpacing {
     /// By their differences.
     #[default]
     Linear,
@@ -14,7 +14,7 @@ pub(super) enum Spacing {
     Equal(LatticeAxis),
 }
 
-impl Spacing {
+impl AxisSpacing {
     /// Equal distances between ascending values; linear for a single one.
     pub(super) fn equal(values: Vec<f64>) -> Self {
         if values.len() < 2 {
@@ -76,7 +76,7 @@ mod tests {
     #[test]
     fn places_and_values_are_each_others_inverse() {
         let values = vec![0.0, 0.01, 0.1, 100.0];
-        for spacing in [Spacing::Linear, Spacing::equal(values.clone())] {
+        for spacing in [AxisSpacing::Linear, AxisSpacing::equal(values.clone())] {
             for value in [-0.005, 0.0, 0.004, 0.1, 60.0, 140.0] {
                 let found = spacing.value(spacing.place(value));
                 assert!((found - value).abs() < 1e-9, "{spacing:?}: {value} {found}");
@@ -85,10 +85,10 @@ mod tests {
                 assert!((found - value).abs() < 1e-9, "{spacing:?}: {value} {found}");
             }
         }
-        let equal = Spacing::equal(values);
+        let equal = AxisSpacing::equal(values);
         let share = |value: f64| equal.fraction(value, 0.0, 100.0);
         assert!((share(0.01) - 1.0 / 3.0).abs() < 1e-12);
         assert!((share(0.1) - 2.0 / 3.0).abs() < 1e-12);
-        assert_eq!(Spacing::equal(vec![3.0]), Spacing::Linear);
+        assert_eq!(AxisSpacing::equal(vec![3.0]), AxisSpacing::Linear);
     }
 }

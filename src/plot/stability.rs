@@ -2,8 +2,8 @@
 //! time step over it.
 
 use super::contour::{Nodes, Piece};
-use super::diagram::{Curve, Stroke};
-use super::grid::{GridAxis, Panel};
+use super::diagram::{PanelCurve, Stroke};
+use super::grid::{GridAxis, GridPanel};
 use super::svg::Svg;
 use super::{PlotError, Source, phase};
 use crate::dem::timestep::{Limit, limits};
@@ -38,13 +38,11 @@ pub fn draw(
         },
         points: &[],
         times: None,
-        captions: &[],
-        data: &[],
         program,
     };
     phase::with_diagram("stability", &source, |diagram| {
         let grid = diagram.grid;
-        let curves = |panel: &Panel| match (grid.variant(panel), &grid.y) {
+        let curves = |panel: &GridPanel| match (grid.variant(panel), &grid.y) {
             (Some(place), Some(y)) => {
                 let setting = &study.comparison.settings[place as usize];
                 curves(study, setting, &grid.x, y)
@@ -57,7 +55,12 @@ pub fn draw(
 
 /// The limit that decides, and the advised one of a sphere with twelve contacts, which there is not
 /// with sub-steps or without contacts.
-fn curves(study: &StabilityStudy, setting: &Setting, x: &GridAxis, y: &GridAxis) -> Vec<Curve> {
+fn curves(
+    study: &StabilityStudy,
+    setting: &Setting,
+    x: &GridAxis,
+    y: &GridAxis,
+) -> Vec<PanelCurve> {
     let (across, up) = (nodes(x), nodes(y));
     let at_nodes = across
         .iter()
@@ -85,11 +88,11 @@ fn curves(study: &StabilityStudy, setting: &Setting, x: &GridAxis, y: &GridAxis)
         .contour()
     };
     vec![
-        Curve {
+        PanelCurve {
             pieces: of(|limit| limit.name == "twelve contacts"),
             stroke: Stroke::Dashed,
         },
-        Curve {
+        PanelCurve {
             pieces: of(|limit| limit.decisive),
             stroke: Stroke::Full,
         },

@@ -2,22 +2,22 @@
 //! (Rice, 2012, figure 11).
 
 use super::canvas::{self, SNAP};
-use super::choice::{self, Run};
 use super::page::whole;
-use super::style::{Drawn, LABEL, MARGIN, SMALL, Sheet, WIDTH, frame, letters, px};
+use super::runs::{Runs, ShownRun};
+use super::style::{Drawn, FigureSheet, LABEL, MARGIN, SMALL, WIDTH, frame, letters, px};
 use super::svg::{Placed, Svg};
-use super::words::{LINE, Words};
-use super::{Figure, PlotError, Source, chart, numbers, palette, text};
-use crate::classify::{Family, Label, TANK};
+use super::words::{FigureWords, LINE};
+use super::{Figure, PlotError, chart, choice, numbers, palette, text};
+use crate::classify::{Label, TANK};
 use crate::observe::Snapshot;
-use crate::record::{Outcome, RunRecord};
+use crate::record::Outcome;
 use crate::render::{Camera, Rgb, Stage, picture, round_down};
 use ndarray::Axis;
 use plotters::element::PathElement;
 use plotters::style::text_anchor::{HPos, VPos};
 
-/// Pictures of the states.
-pub(super) struct States;
+/// Name of the figure.
+const NAME: &str = "states";
 
 /// Most pictures side by side.
 const MOST: usize = 5;
@@ -32,40 +32,25 @@ const HIGHEST: f64 = 4.0;
 /// Heights that differ by this share are equal.
 const ROUNDING: f64 = 1e-9;
 
-impl Figure for States {
-    fn name(&self) -> &'static str {
-        "states"
-    }
+pub(super) fn figure() -> Figure {
+    Figure::of_runs(
+        NAME,
+        "pictures: the spheres at the end of a run, from the side and from above",
+        &choice::STATES,
+        draw,
+    )
+    .for_families([&TANK])
+}
 
-    fn description(&self) -> String {
-        "pictures: the spheres at the end of a run, from the side and from above".to_owned()
-    }
-
-    fn default_runs(&self) -> Option<&'static str> {
-        Some("a typical run of every state")
-    }
-
-    fn families(&self) -> Vec<&'static Family> {
-        vec![&TANK]
-    }
-
-    fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
-        let runs = choice::runs(source, choice::states)?;
-        let (common, places) = choice::places(&runs);
-        let ends = runs
-            .iter()
-            .zip(places)
-            .map(|(run, place)| End::new(run, place, run.record()?, self.name()))
-            .collect::<Result<Vec<_>, PlotError>>()?;
-        let title = source.sweep.title.as_deref();
-        let strip = Strip::new(ends, title, &common, choice::left_out(source));
-        let body = canvas::draw((WIDTH, strip.height), |sheet| {
-            strip.words.draw(sheet)?;
-            strip.draw_length(sheet)
-        })?;
-        let pictures = (0..strip.ends.len()).flat_map(|index| strip.pictures(index));
-        Svg::new(self.name(), source, &body).with_pictures(pictures.collect())
-    }
+fn draw(runs: &Runs<'_>) -> Result<Svg, PlotError> {
+    let ends = runs.shown.iter().map(End::new);
+    let strip = PictureStrip::new(ends.collect::<Result<_, _>>()?, runs);
+    let body = canvas::draw((WIDTH, strip.height), |sheet| {
+        strip.words.draw(sheet)?;
+        strip.draw_length(sheet)
+    })?;
+    let pictures = (0..strip.ends.len()).flat_map(|index| strip.pictures(index));
+    Svg::new(NAME, &runs.origin, &body).with_pictures(pictures.collect())
 }
 
 /// The end of a run.
@@ -79,29 +64,22 @@ struct End {
 }
 
 impl End {
-    fn new(
-        run: &Run<'_>,
-        place: Vec<String>,
-        record: RunRecord,
-        figure: &'static str,
-    ) -> Result<Self, PlotError> {
-        let stage = Stage::of_scene(&record.scene);
-        let mut snapshots = record.snapshots.into_iter().rev();
+    fn new(run: &ShownRun<'_>) -> Result<Self, PlotError> {
+        let record = run.record()?;
+        let mut snapshots = record.snapshots.iter().rev();
         // The numbers of the state that broke a guard mean nothing.
         let snapshot = match &record.outcome {
             Outcome::Unstable(broken) => snapshots.find(|state| state.time < broken.time),
             Outcome::Completed => snapshots.next(),
         };
-        let snapshot = snapshot.ok_or(PlotError::Scene {
-            figure,
-            needs: "snapshots in its records",
-        })?;
+        let snapshot =
+            snapshot.ok_or_else(|| PlotError::needs(NAME, "snapshots in its records"))?;
         Ok(Self {
-            label: run.row.verdict.label,
-            place,
-            stage: stage.around([&snapshot], &record.radius),
-            snapshot,
-            radius: record.radius,
+            label: run.verdict.label,
+            place: run.name.clone(),
+            stage: Stage::of_scene(&record.scene).around([snapshot], &record.radius),
+            snapshot: snapshot.clone(),
+            radius: record.radius.clone(),
         })
     }
 
@@ -125,11 +103,11 @@ impl End {
 }
 
 /// Where pictures and words go. Corners of pictures fall on pixels of the PNG.
-struct Strip {
+struct PictureStrip {
     ends: Vec<End>,
     /// The tanks, with what is seen of them.
     stages: Vec<Stage>,
-    words: Words,
+    words: FigureWords,
     /// Pictures per row.
     columns: usize,
     /// Upper left corner of the first picture.
@@ -141,13 +119,8 @@ struct Strip {
     height: i32,
 }
 
-impl Strip {
-    fn new(
-        ends: Vec<End>,
-        title: Option<&str>,
-        common: &[String],
-        left_out: Option<String>,
-    ) -> Self {
+impl PictureStrip {
+    fn new(ends: Vec<End>, runs: &Runs<'_>) -> Self {
         let stages = stages(&ends);
         let columns = ends.len().clamp(1, MOST);
         let count = columns as i32;
@@ -159,8 +132,8 @@ impl Strip {
             (height / f64::from(SNAP)).ceil() as i32 * SNAP
         };
         let heights = [height_of(Camera::side), height_of(Camera::top)];
-        let mut words = Words::new(WIDTH);
-        words.title(title, &[]);
+        let mut words = FigureWords::new(WIDTH);
+        words.title(runs.origin.title, &[]);
         let places = ends.iter().zip(&stages);
         let places: Vec<Vec<String>> = places
             .map(|(end, stage)| place_lines(end, stage, width))
@@ -190,8 +163,8 @@ impl Strip {
         }
         let rows = strip.ends.len().div_ceil(columns) as i32;
         strip.words.bottom = strip.origin.1 + rows * strip.row;
-        let common = Some(common.join(", ")).filter(|common| !common.is_empty());
-        let notes: Vec<String> = common.into_iter().chain(left_out).collect();
+        let common = Some(runs.common.join(", ")).filter(|common| !common.is_empty());
+        let notes: Vec<String> = common.into_iter().chain(runs.left_out.clone()).collect();
         strip.words.notes(&notes);
         strip.height = whole(strip.words.bottom + MARGIN + px(6));
         strip
@@ -236,7 +209,7 @@ impl Strip {
     }
 
     /// Draws a length to compare with: the radius of the tank, or what is seen, rounded.
-    fn draw_length(&self, sheet: &Sheet<'_>) -> Drawn {
+    fn draw_length(&self, sheet: &FigureSheet<'_>) -> Drawn {
         let Some(stage) = self.stages.first() else {
             return Ok(());
         };

@@ -13,7 +13,7 @@ use plotters::style::{
 use std::convert::Infallible;
 
 /// The sheet a figure is drawn on.
-pub(super) type Sheet<'a> = DrawingArea<Canvas<'a>, Shift>;
+pub(super) type FigureSheet<'a> = DrawingArea<Canvas<'a>, Shift>;
 
 /// Why drawing failed.
 pub(super) type Failed = DrawingAreaErrorKind<Infallible>;
@@ -58,12 +58,12 @@ pub(super) fn letters(size: i32, horizontal: HPos, vertical: VPos) -> TextStyle<
 pub(super) type Corners = [(i32, i32); 2];
 
 /// Fills a rectangle.
-pub(super) fn fill(sheet: &Sheet<'_>, corners: Corners, color: RGBColor) -> Drawn {
+pub(super) fn fill(sheet: &FigureSheet<'_>, corners: Corners, color: RGBColor) -> Drawn {
     sheet.draw(&Rectangle::new(corners, color.filled()))
 }
 
 /// Draws the outline of a rectangle.
-pub(super) fn outline(sheet: &Sheet<'_>, corners: Corners, style: ShapeStyle) -> Drawn {
+pub(super) fn outline(sheet: &FigureSheet<'_>, corners: Corners, style: ShapeStyle) -> Drawn {
     sheet.draw(&Rectangle::new(corners, style))
 }
 
@@ -85,7 +85,7 @@ pub(super) enum Fill {
 const SPACING: i32 = px(5);
 
 /// Fills a rectangle. Patterns go through from one to the next.
-pub(super) fn paint(sheet: &Sheet<'_>, corners: Corners, with: Fill) -> Drawn {
+pub(super) fn paint(sheet: &FigureSheet<'_>, corners: Corners, with: Fill) -> Drawn {
     match with {
         Fill::Color(color) => fill(sheet, corners, color),
         Fill::Falling(color) => {
@@ -110,7 +110,7 @@ pub(super) fn paint(sheet: &Sheet<'_>, corners: Corners, with: Fill) -> Drawn {
 }
 
 /// Draws oblique lines in a rectangle, to the right upward or downward.
-fn oblique(sheet: &Sheet<'_>, corners: Corners, ink: ShapeStyle, upward: bool) -> Drawn {
+fn oblique(sheet: &FigureSheet<'_>, corners: Corners, ink: ShapeStyle, upward: bool) -> Drawn {
     let [(left, top), (right, bottom)] = corners;
     // Downward lines are upward ones in a rectangle that is turned over.
     let turned = |y: i32| if upward { y } else { -y };
@@ -129,7 +129,7 @@ fn oblique(sheet: &Sheet<'_>, corners: Corners, ink: ShapeStyle, upward: bool) -
 }
 
 /// Draws points in a rectangle, every second row shifted.
-fn stipple(sheet: &Sheet<'_>, corners: Corners) -> Drawn {
+fn stipple(sheet: &FigureSheet<'_>, corners: Corners) -> Drawn {
     const POINT: i32 = px(1);
     let [(left, top), (right, bottom)] = corners;
     let first = |edge: i32| (edge + POINT).div_euclid(SPACING) + 1;
@@ -150,7 +150,7 @@ pub(super) const LARGEST_CELL: i32 = px(18);
 /// in grey, the larger the smaller `agreement` is, the share of the seeds in the majority. `cell`
 /// is the side of the smallest cell, so that equal agreement has equal discs.
 pub(super) fn disagreement(
-    sheet: &Sheet<'_>,
+    sheet: &FigureSheet<'_>,
     centre: (i32, i32),
     agreement: f64,
     cell: i32,
@@ -166,7 +166,7 @@ const MARK: i32 = px(2);
 
 /// Marks a point at which a run was made: a dot with a white rim. One of a colour has a black ring
 /// and is larger.
-pub(super) fn mark(sheet: &Sheet<'_>, centre: (i32, i32), color: RGBColor) -> Drawn {
+pub(super) fn mark(sheet: &FigureSheet<'_>, centre: (i32, i32), color: RGBColor) -> Drawn {
     let ring = if color == BLACK { MARK } else { MARK + px(2) };
     sheet.draw(&Circle::new(centre, ring + 8, WHITE.filled()))?;
     sheet.draw(&Circle::new(centre, ring, BLACK.filled()))?;
@@ -177,18 +177,18 @@ pub(super) fn mark(sheet: &Sheet<'_>, centre: (i32, i32), color: RGBColor) -> Dr
 }
 
 /// Draws a border between labels: a thin black line.
-pub(super) fn border(sheet: &Sheet<'_>, points: &[(i32, i32)]) -> Drawn {
+pub(super) fn border(sheet: &FigureSheet<'_>, points: &[(i32, i32)]) -> Drawn {
     sheet.draw(&PathElement::new(points, BLACK.mix(0.85).stroke_width(12)))
 }
 
 /// Draws the curve of a theory: black with a white border, visible on every colour.
-pub(super) fn curve(sheet: &Sheet<'_>, points: &[(i32, i32)]) -> Drawn {
+pub(super) fn curve(sheet: &FigureSheet<'_>, points: &[(i32, i32)]) -> Drawn {
     sheet.draw(&PathElement::new(points, WHITE.stroke_width(44)))?;
     sheet.draw(&PathElement::new(points, BLACK.stroke_width(20)))
 }
 
 /// Draws the curve of an advice: thin black dashes with a white border.
-pub(super) fn dashes(sheet: &Sheet<'_>, points: &[(i32, i32)]) -> Drawn {
+pub(super) fn dashes(sheet: &FigureSheet<'_>, points: &[(i32, i32)]) -> Drawn {
     for ink in [WHITE.stroke_width(28), BLACK.stroke_width(12)] {
         let points = points.iter().copied();
         sheet.draw(&DashedPathElement::new(points, px(6), px(4), ink))?;

@@ -1,7 +1,7 @@
 //! A finished figure: its SVG, its PNG, and where it comes from.
 
 use super::canvas::{self, Body, PNG_SCALE, UNITS};
-use super::{PlotError, Source, png, text};
+use super::{PlotError, png, text};
 use crate::fonts;
 use crate::markup::escape;
 use crate::record::{Program, RunRecord};
@@ -24,20 +24,27 @@ pub struct Svg {
     warnings: Vec<String>,
 }
 
-/// A picture, and its upper left corner in units of the canvas. Its pixels are those of the PNG.
+/// A picture, and its upper left corner in units of the canvas. Its pixels are pixels of the PNG.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Placed {
     pub(super) image: Image,
     pub(super) corner: (i32, i32),
 }
 
+/// What the metadata of a figure of several runs say.
+pub(super) struct Origin<'a> {
+    pub(super) title: Option<&'a str>,
+    pub(super) seeds: Vec<u64>,
+    pub(super) program: &'a Program,
+}
+
 impl Svg {
     /// The figure that is drawn in `body`.
-    pub(super) fn new(figure: &str, source: &Source<'_>, body: &Body) -> Self {
-        let title = source.sweep.title.clone().unwrap_or_default();
-        let seeds = ranges(source.table.rows.iter().map(|row| row.seed).collect());
+    pub(super) fn new(figure: &str, origin: &Origin<'_>, body: &Body) -> Self {
+        let title = origin.title.unwrap_or_default().to_owned();
+        let seeds = ranges(origin.seeds.clone());
         let about = [("Title", title), ("Seeds", seeds)];
-        Self::about(&about, figure, source.program, body)
+        Self::about(&about, figure, origin.program, body)
     }
 
     /// The same for a figure of a single run.
@@ -89,7 +96,7 @@ impl Svg {
         let mut elements = String::new();
         for picture in &pictures {
             let file = picture.image.to_png(&[]);
-            let file = file.map_err(|error| PlotError::Png(error.to_string()))?;
+            let file = file.map_err(|error| PlotError::png(error))?;
             elements.push_str(&canvas::picture(&picture.image, picture.corner, &file));
         }
         if let Some(end) = self.document.rfind("</svg>") {
@@ -115,9 +122,9 @@ impl Svg {
     ///
     /// # Errors
     ///
-    /// [`PlotError::Png`] when the figure is too large to be drawn.
+    /// [`PlotError`] if the figure is too large to be drawn.
     pub fn to_png_bytes(&self) -> Result<Vec<u8>, PlotError> {
-        let failed = |error: &dyn std::fmt::Display| PlotError::Png(error.to_string());
+        let failed = |error: &dyn std::fmt::Display| PlotError::png(error);
         let tree = usvg::Tree::from_str(&self.document, &fonts::svg_options())
             .map_err(|error| failed(&error))?;
         let size = tree.size();

@@ -8,7 +8,7 @@ use crate::markup::words;
 use plotters::style::{FontDesc, FontFamily, FontStyle, register_font};
 use std::sync::OnceLock;
 
-/// Size of a subscript over that of its line.
+/// Size of a subscript over the size of its line.
 pub(super) const SUBSCRIPT_SIZE: f64 = 0.72;
 
 /// Fonts measured by plotters: size means ascent plus descent there, the em here.
@@ -16,26 +16,26 @@ const LINE_OVER_EM: f64 = (1901.0 + 483.0) / 2048.0;
 
 /// A piece of text of one style.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(super) struct Run {
+pub(super) struct TextRun {
     pub(super) text: String,
     pub(super) oblique: bool,
     pub(super) subscript: bool,
 }
 
 /// The pieces of a text with markup.
-pub(super) fn runs(text: &str) -> Vec<Run> {
+pub(super) fn runs(text: &str) -> Vec<TextRun> {
     if !balanced(text) {
-        return vec![Run {
+        return vec![TextRun {
             text: text.to_owned(),
-            ..Run::default()
+            ..TextRun::default()
         }];
     }
-    let mut runs: Vec<Run> = Vec::new();
+    let mut runs: Vec<TextRun> = Vec::new();
     let mut push = |character: char, oblique: bool, subscript: bool| match runs.last_mut() {
         Some(run) if run.oblique == oblique && run.subscript == subscript => {
             run.text.push(character);
         }
-        _ => runs.push(Run {
+        _ => runs.push(TextRun {
             text: character.to_string(),
             oblique,
             subscript,
@@ -160,8 +160,8 @@ pub(super) fn wrap_list(items: &[String], size: f64, limit: f64) -> Vec<String> 
 mod tests {
     use super::*;
 
-    fn run(text: &str, oblique: bool, subscript: bool) -> Run {
-        Run {
+    fn run(text: &str, oblique: bool, subscript: bool) -> TextRun {
+        TextRun {
             text: text.to_owned(),
             oblique,
             subscript,

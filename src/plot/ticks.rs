@@ -1,7 +1,7 @@
 //! Where an axis may have ticks, and their labels.
 
 use super::numbers::{among, decimal, rounded_value, scientific};
-use super::spacing::Spacing;
+use super::spacing::AxisSpacing;
 
 /// Most ticks of a scale whose positions are free.
 const MOST_TICKS: usize = 9;
@@ -35,7 +35,7 @@ pub(super) type Tick = (f64, String);
 pub(super) fn sets(
     wanted: &Ticks,
     (low, high): (f64, f64),
-    spacing: &Spacing,
+    spacing: &AxisSpacing,
 ) -> impl Iterator<Item = Vec<Tick>> {
     let values = match wanted {
         Ticks::Values(values) => values.clone(),
@@ -49,7 +49,7 @@ pub(super) fn sets(
     let own = own.and_then(|values| labelled(&values, spacing, DIGITS[0]));
     let sets = match spacing {
         // Round numbers would crowd where values are close.
-        Spacing::Equal(_) => thinned(&values),
+        AxisSpacing::Equal(_) => thinned(&values),
         _ => round_ticks(low, high, spacing),
     };
     let ends = match &values[..] {
@@ -76,7 +76,7 @@ fn thinned(values: &[f64]) -> Vec<Vec<f64>> {
 }
 
 /// Sets of round numbers between `low` and `high`, from many to few.
-fn round_ticks(low: f64, high: f64, spacing: &Spacing) -> Vec<Vec<f64>> {
+fn round_ticks(low: f64, high: f64, spacing: &AxisSpacing) -> Vec<Vec<f64>> {
     let mut sets = Vec::new();
     if spacing.is_logarithmic() {
         let decades = libm::log10(low).floor() as i32..=libm::log10(high).ceil() as i32;
@@ -115,7 +115,7 @@ fn round_ticks(low: f64, high: f64, spacing: &Spacing) -> Vec<Vec<f64>> {
 }
 
 /// The ticks with their labels, of equal style; `None` if they need more digits.
-fn labelled(ticks: &[f64], spacing: &Spacing, digits: usize) -> Option<Vec<Tick>> {
+fn labelled(ticks: &[f64], spacing: &AxisSpacing, digits: usize) -> Option<Vec<Tick>> {
     let sizes = || {
         let sizes = ticks.iter().map(|tick| tick.abs());
         sizes.filter(|size| *size > 0.0)
@@ -130,7 +130,7 @@ fn labelled(ticks: &[f64], spacing: &Spacing, digits: usize) -> Option<Vec<Tick>
     };
     let is_logarithmic = spacing.is_logarithmic();
     // Labels of linear axes have the same decimals; of others each has its own.
-    let is_uneven = *spacing != Spacing::Linear;
+    let is_uneven = *spacing != AxisSpacing::Linear;
     let decisive = if is_uneven { least } else { most };
     let is_plain = most == 0.0 || (decisive >= 1e-3 && most < 1e5);
     if is_plain && is_uneven {

@@ -1,13 +1,13 @@
 //! Errors of all verification cases over what they may be.
 
 use super::axes::Plot;
-use super::legend::{Entry, Key};
-use super::page::{Frame, Page, Plan};
-use super::scale::Span;
-use super::style::{Drawn, Sheet, px};
+use super::legend::{LegendEntry, LegendKey};
+use super::page::{FigurePage, PagePlan, PanelFrame};
+use super::scale::AxisSpan;
+use super::style::{Drawn, FigureSheet, px};
 use super::svg::Svg;
 use super::ticks::Ticks;
-use super::{PlotError, palette};
+use super::{Figure, PlotError, StudyResult, palette};
 use crate::record::Program;
 use crate::scene::Integrator;
 use plotters::element::{Circle, PathElement};
@@ -24,7 +24,7 @@ pub struct CaseError {
     pub ratio: f64,
 }
 
-/// Least and largest ratio that is told apart, as powers of ten.
+/// Ends of the axis of ratios, as powers of ten; ratios beyond are drawn at its ends.
 const DECADES: (i32, i32) = (-6, 1);
 /// Height of a row.
 const ROW: i32 = px(15);
@@ -33,25 +33,29 @@ const LETTERS: i32 = px(10);
 /// Title of the figure.
 const TITLE: &str = "Verification";
 
+pub(super) fn figure() -> Figure {
+    let description = "errors of the cases of `phase verify` over their tolerances";
+    Figure::of_study("verification", description, |study| match study {
+        StudyResult::Verification(errors, program) => draw(errors, program),
+    })
+}
+
 /// Draws a dot for every case and integrator, at its error over the tolerance.
-///
-/// # Errors
-/// [`PlotError`] if the figure cannot be drawn.
-pub fn draw(errors: &[CaseError], program: &Program) -> Result<Svg, PlotError> {
+fn draw(errors: &[CaseError], program: &Program) -> Result<Svg, PlotError> {
     let mut rows: Vec<&str> = errors.iter().map(|error| error.name.as_str()).collect();
     rows.dedup();
     let is_used =
         |integrator: &Integrator| errors.iter().any(|error| error.integrator == *integrator);
     let entries = Integrator::ALL.into_iter().filter(is_used);
-    let entries = entries.map(|it| Entry::new(Key::Dot(color(it)), it.name()));
-    let page = Page::new(Plan {
+    let entries = entries.map(|it| LegendEntry::new(LegendKey::Dot(color(it)), it.name()));
+    let page = FigurePage::new(PagePlan {
         title: Some(TITLE),
         frames: vec![frame(&rows)],
         columns: 1,
         height: ROW * (rows.len() as i32 + 1),
         labels: ["largest error over the tolerance".to_owned(), String::new()],
         legend: entries.collect(),
-        ..Plan::default()
+        ..PagePlan::default()
     });
     let body = page.draw(|sheet| {
         let axes = page.axes(sheet, 0)?;
@@ -71,7 +75,7 @@ pub fn draw(errors: &[CaseError], program: &Program) -> Result<Svg, PlotError> {
 }
 
 /// Powers of ten across, and the cases from above.
-fn frame(rows: &[&str]) -> Frame {
+fn frame(rows: &[&str]) -> PanelFrame {
     let power = |power: i32| {
         let label = match power {
             low if low == DECADES.0 => format!("≤ 1e{low}"),
@@ -83,16 +87,16 @@ fn frame(rows: &[&str]) -> Frame {
     };
     let name = |(row, name): (usize, &&str)| (row as f64, (*name).to_owned());
     let x = (f64::from(DECADES.0), f64::from(DECADES.1));
-    Frame {
+    PanelFrame {
         head: Vec::new(),
-        x: Span {
+        x: AxisSpan {
             ticks: Ticks::Given((DECADES.0..=DECADES.1).map(power).collect()),
-            ..Span::linear(x)
+            ..AxisSpan::linear(x)
         },
-        y: Span {
+        y: AxisSpan {
             ticks: Ticks::Given(rows.iter().enumerate().map(name).collect()),
             letters: Some(LETTERS),
-            ..Span::linear((rows.len() as f64, -1.0))
+            ..AxisSpan::linear((rows.len() as f64, -1.0))
         },
     }
 }
@@ -109,7 +113,7 @@ fn draw_guides(plot: &Plot<'_>, rows: usize) -> Drawn {
     plot.draw(&PathElement::new(limit, palette::GUIDE.stroke_width(16)))
 }
 
-fn draw_dot(sheet: &Sheet<'_>, plot: &Plot<'_>, error: &CaseError, row: usize) -> Drawn {
+fn draw_dot(sheet: &FigureSheet<'_>, plot: &Plot<'_>, error: &CaseError, row: usize) -> Drawn {
     // An error of zero has no logarithm, and belongs to the left end.
     let power = match error.ratio {
         ratio if ratio > 0.0 => libm::log10(ratio),

@@ -1,6 +1,6 @@
 //! Words on a figure, placed from above.
 
-use super::style::{Drawn, MARGIN, SMALL, Sheet, TITLE, letters, px};
+use super::style::{Drawn, FigureSheet, MARGIN, SMALL, TITLE, letters, px};
 use super::text;
 use plotters::style::TextStyle;
 use plotters::style::text_anchor::{HPos, VPos};
@@ -11,7 +11,7 @@ const TITLE_LINE: i32 = px(20);
 pub(super) const LINE: i32 = px(16);
 
 /// Words with their places.
-pub(super) struct Words {
+pub(super) struct FigureWords {
     /// Each with its style and its anchor.
     placed: Vec<(String, TextStyle<'static>, (i32, i32))>,
     /// Width of the figure.
@@ -20,7 +20,7 @@ pub(super) struct Words {
     pub(super) bottom: i32,
 }
 
-impl Words {
+impl FigureWords {
     /// None yet, on a figure of that width.
     pub(super) fn new(width: i32) -> Self {
         Self {
@@ -72,7 +72,7 @@ impl Words {
     }
 
     /// Draws them.
-    pub(super) fn draw(&self, sheet: &Sheet<'_>) -> Drawn {
+    pub(super) fn draw(&self, sheet: &FigureSheet<'_>) -> Drawn {
         let mut placed = self.placed.iter();
         placed.try_for_each(|(line, style, place)| sheet.draw_text(line, style, *place))
     }

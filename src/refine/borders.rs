@@ -65,9 +65,8 @@ impl Borders {
         if axis < lattice.axes().len() {
             return Ok(Self::of(lattice, map, axis));
         }
-        let name = axis.to_string();
         let reason = "there is no axis of this number";
-        Err(RefineError::Axis { name, reason })
+        Err(RefineError::axis(&axis.to_string(), reason))
     }
 
     /// The crossings along an axis that the lattice has.

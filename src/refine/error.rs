@@ -1,48 +1,42 @@
 //! What can be wrong with axes, settings and observations.
 
+use super::Code;
+use std::fmt::Display;
+
 /// Why a diagram cannot be refined.
-#[derive(Debug, thiserror::Error)]
-pub enum RefineError {
-    /// An axis has no usable values.
-    #[error("axis `{name}`: {reason}")]
-    Axis {
-        /// Name of the axis.
-        name: String,
-        /// What is wrong with it.
-        reason: &'static str,
-    },
-    /// A setting is out of its range.
-    #[error("`refine.{key}` {reason}")]
-    Setting {
-        /// Key in the table `[refine]`.
-        key: &'static str,
-        /// What is wrong with it.
-        reason: &'static str,
-    },
-    /// A place has the wrong number of values, or one that is not finite on an axis.
-    #[error("the place {values:?} does not lie on the {axes} axes")]
-    Place {
-        /// Value on each axis.
-        values: Vec<f64>,
-        /// Number of axes.
-        axes: usize,
-    },
-    /// A place and seed have two different labels.
-    #[error("the run at {values:?} with seed {seed} has the labels {first} and {second}")]
-    Contradiction {
-        /// Value on each axis.
-        values: Vec<f64>,
-        /// Seed of the run.
-        seed: u64,
-        /// Label given first.
-        first: i8,
-        /// Label given later.
-        second: i8,
-    },
+#[derive(Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub struct RefineError(String);
+
+impl RefineError {
+    pub(super) fn axis(name: &str, reason: &str) -> Self {
+        Self(format!("axis `{name}`: {reason}"))
+    }
+
+    pub(super) fn setting(key: &str, reason: impl Display) -> Self {
+        Self(format!("`refine.{key}` {reason}"))
+    }
+
+    /// A place does not lie on so many axes.
+    pub fn place(values: &[f64], axes: usize) -> Self {
+        Self(format!(
+            "the place {values:?} does not lie on the {axes} axes"
+        ))
+    }
+
+    /// One place and one seed have two different labels.
+    pub(super) fn contradiction(values: &[f64], seed: u64, [first, second]: [Code; 2]) -> Self {
+        Self(format!(
+            "the run at {values:?} with seed {seed} has the labels {first} and {second}"
+        ))
+    }
+
     /// There are no runs, so nothing can be fitted.
-    #[error(
-        "there are no runs to learn from: no run of this sweep has a label; `phase sweep` makes \
-         them"
-    )]
-    NoRuns,
+    pub(super) fn no_runs() -> Self {
+        Self(
+            "there are no runs to learn from: no run of this sweep has a label; `phase sweep` \
+             makes them"
+                .to_owned(),
+        )
+    }
 }

@@ -22,7 +22,7 @@ impl Gap {
     /// If there are no runs, or if one does not lie on the axes.
     pub fn new(lattice: &Lattice, runs: &Observations) -> Result<Self, RefineError> {
         if runs.is_empty() {
-            return Err(RefineError::NoRuns);
+            return Err(RefineError::no_runs());
         }
         let mut squares = vec![f64::INFINITY; lattice.places()];
         for (run, _) in runs.iter() {

@@ -28,10 +28,7 @@ impl LatticeAxis {
     /// If there are no values, if they are not finite or do not ascend, or if they are not above 0
     /// on a logarithmic axis.
     pub fn new(name: &str, values: Vec<f64>, scale: AxisScale) -> Result<Self, RefineError> {
-        let refuse = |reason| {
-            let name = name.to_owned();
-            Err(RefineError::Axis { name, reason })
-        };
+        let refuse = |reason| Err(RefineError::axis(name, reason));
         if values.is_empty() {
             return refuse("it has no values");
         }
@@ -142,10 +139,7 @@ impl Lattice {
     /// # Errors
     /// If there are no axes, or more than 2³² places.
     pub fn new(axes: Vec<LatticeAxis>) -> Result<Self, RefineError> {
-        let refuse = |name: &str, reason| {
-            let name = name.to_owned();
-            Err(RefineError::Axis { name, reason })
-        };
+        let refuse = |name: &str, reason| Err(RefineError::axis(name, reason));
         if axes.is_empty() {
             return refuse("", "there are no axes");
         }
@@ -232,10 +226,7 @@ impl Lattice {
         if fits {
             Ok(unit)
         } else {
-            Err(RefineError::Place {
-                values: values.to_vec(),
-                axes: self.axes.len(),
-            })
+            Err(RefineError::place(values, self.axes.len()))
         }
     }
 

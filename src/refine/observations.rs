@@ -48,12 +48,10 @@ impl Observations {
     pub fn add(&mut self, run: Trial, label: Code) -> Result<(), RefineError> {
         match self.runs.binary_search_by(|(other, _)| other.order(&run)) {
             Ok(index) if self.runs[index].1 == label => Ok(()),
-            Ok(index) => Err(RefineError::Contradiction {
-                values: run.values,
-                seed: run.seed,
-                first: self.runs[index].1,
-                second: label,
-            }),
+            Ok(index) => {
+                let labels = [self.runs[index].1, label];
+                Err(RefineError::contradiction(&run.values, run.seed, labels))
+            }
             Err(index) => {
                 self.runs.insert(index, (run, label));
                 Ok(())
@@ -99,7 +97,7 @@ impl Training {
     /// If there are none, or if one does not lie on the axes.
     pub fn new(lattice: &Lattice, runs: &Observations) -> Result<Self, RefineError> {
         if runs.is_empty() {
-            return Err(RefineError::NoRuns);
+            return Err(RefineError::no_runs());
         }
         let mut codes: Vec<Code> = runs.iter().map(|(_, label)| label).collect();
         codes.sort_unstable();

@@ -122,7 +122,7 @@ impl Rounds {
             return Ok(Round::Finished(Finish::Budget));
         }
         self.map()?;
-        let map = self.map.as_ref().ok_or(RefineError::NoRuns)?;
+        let map = self.map.as_ref().ok_or_else(RefineError::no_runs)?;
         if is_narrow(&self.lattice, &self.settings, map) {
             return Ok(Round::Finished(Finish::Width));
         }

@@ -130,7 +130,7 @@ impl Settings {
             ("exploring", share(self.exploring), "must be from 0 to 1"),
         ];
         match checks.into_iter().find(|(_, fits, _)| !fits) {
-            Some((key, _, reason)) => Err(RefineError::Setting { key, reason }),
+            Some((key, _, reason)) => Err(RefineError::setting(key, reason)),
             None => Ok(()),
         }
     }

@@ -1,7 +1,7 @@
 //! The nearest objects along parallel rays from the viewer and from the light.
 
 use super::Stage;
-use super::shade::Sphere;
+use super::shade::ShadedSphere;
 use crate::particles::vector::Vector;
 
 /// Something a ray can hit first.
@@ -58,7 +58,7 @@ pub(super) struct DepthMap {
 }
 
 impl DepthMap {
-    pub(super) fn new(rays: Rays, spheres: &[Sphere]) -> Self {
+    pub(super) fn new(rays: Rays, spheres: &[ShadedSphere]) -> Self {
         let count = rays.width * rays.height;
         let mut map = Self {
             rays,
@@ -89,7 +89,7 @@ impl DepthMap {
         }
     }
 
-    fn add(&mut self, index: u32, sphere: &Sphere) {
+    fn add(&mut self, index: u32, sphere: &ShadedSphere) {
         let Rays { scale, .. } = self.rays;
         let [x, y, depth] = self.rays.project(sphere.centre);
         let reach = sphere.radius * scale;

@@ -25,7 +25,7 @@ pub use flat::Scenery;
 pub use image::Image;
 pub use panel::strip;
 pub(crate) use sheet::round_down;
-pub use sheet::{Sheet, Sides};
+pub use sheet::{PictureSheet, Sides};
 pub use stage::Stage;
 
 use crate::observe::Snapshot;
@@ -65,13 +65,13 @@ pub fn picture(
     height: usize,
 ) -> Image {
     let [low, high] = stage.seen;
-    let spheres: Vec<shade::Sphere> = snapshot
+    let spheres: Vec<shade::ShadedSphere> = snapshot
         .position
         .rows()
         .into_iter()
         .zip(radius)
         .zip(color)
-        .map(|((centre, &radius), &color)| shade::Sphere {
+        .map(|((centre, &radius), &color)| shade::ShadedSphere {
             centre: [centre[0], centre[1], centre[2]].into(),
             radius,
             color,

@@ -16,7 +16,7 @@ pub(super) struct Palette {
 
 /// A cell of the colours that occur: how many pixels, and the sum of their channels.
 #[derive(Clone, Copy, Default)]
-struct Cell {
+struct ColorCell {
     pixels: u64,
     sum: [u64; 3],
 }
@@ -24,7 +24,7 @@ struct Cell {
 impl Palette {
     /// At most 256 colours for these pictures.
     pub(super) fn new(images: &[Image]) -> Self {
-        let mut cells = vec![Cell::default(); CELLS];
+        let mut cells = vec![ColorCell::default(); CELLS];
         for pixel in images.iter().flat_map(|image| image.rgba.chunks_exact(4)) {
             let cell = &mut cells[index([pixel[0], pixel[1], pixel[2]])];
             cell.pixels += 1;
@@ -115,7 +115,7 @@ fn widest(cells: &[usize]) -> (u32, u8) {
 
 /// Splits a box of at least two cells at the median of its pixels, in its widest channel; returns
 /// the upper part.
-fn split(cells_of: &mut Vec<usize>, cells: &[Cell]) -> Vec<usize> {
+fn split(cells_of: &mut Vec<usize>, cells: &[ColorCell]) -> Vec<usize> {
     let (which, _) = widest(cells_of);
     cells_of.sort_by_key(|&cell| (channel(cell, which), cell));
     let all: u64 = cells_of.iter().map(|&cell| cells[cell].pixels).sum();

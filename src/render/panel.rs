@@ -1,7 +1,7 @@
 //! A panel of a state: a caption, and below it the views from the side and from above, or one flat
 //! view.
 
-use super::vector::{self, Anchor};
+use super::vector::{self, TextAnchor};
 use super::{Camera, Image, Rgb, Scenery, Stage, flat, picture};
 use crate::observe::Snapshot;
 
@@ -82,7 +82,7 @@ fn words(caption: &[String], width: usize, line: usize) -> Image {
             let fitting = width as f64 / vector::width(text, 1.0).max(1.0);
             let base = (index as f64 + 0.75) * line as f64;
             let size = (letters * line as f64).min(fitting);
-            vector::text(text, (middle, base), size, Anchor::Middle)
+            vector::text(text, (middle, base), size, TextAnchor::Middle)
         })
         .collect();
     vector::drawing(&elements, width, caption.len() * line)

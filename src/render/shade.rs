@@ -6,13 +6,13 @@ use crate::particles::vector::Vector;
 
 /// A sphere to draw.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Sphere {
+pub(super) struct ShadedSphere {
     pub(super) centre: Vector,
     pub(super) radius: f64,
     pub(super) color: Rgb,
 }
 
-impl Sphere {
+impl ShadedSphere {
     pub(super) fn is_drawable(&self) -> bool {
         let Vector { x, y, z, .. } = self.centre;
         [x, y, z, self.radius].iter().all(|v| v.is_finite()) && self.radius > 0.0
@@ -44,7 +44,7 @@ const STROKE: f64 = 1.2;
 const LARGEST_SHADOW: f64 = 4096.0;
 
 pub(super) fn render(
-    spheres: &[Sphere],
+    spheres: &[ShadedSphere],
     stage: &Stage,
     camera: &Camera,
     width: usize,
@@ -88,7 +88,7 @@ pub(super) fn render(
 
 /// Data from which a ray finds its colour.
 struct Shader<'a> {
-    spheres: &'a [Sphere],
+    spheres: &'a [ShadedSphere],
     stage: &'a Stage,
     view: &'a DepthMap,
     shadows: DepthMap,
@@ -245,7 +245,7 @@ fn places_around(ray: usize) -> Vec<[f64; 2]> {
 }
 
 /// The first objects that the light meets.
-fn shadow_map(spheres: &[Sphere], light: Vector, up: Vector, scale: f64) -> DepthMap {
+fn shadow_map(spheres: &[ShadedSphere], light: Vector, up: Vector, scale: f64) -> DepthMap {
     let right = unit(up.cross(light));
     let axes = [right, light.cross(right), light];
     let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
@@ -275,8 +275,8 @@ fn shadow_map(spheres: &[Sphere], light: Vector, up: Vector, scale: f64) -> Dept
 }
 
 /// Depth of the farthest and of the nearest sphere.
-fn depths(spheres: &[Sphere], camera: &Camera) -> [f64; 2] {
-    let depth = |sphere: &Sphere| (sphere.centre - camera.centre).dot(camera.viewer);
+fn depths(spheres: &[ShadedSphere], camera: &Camera) -> [f64; 2] {
+    let depth = |sphere: &ShadedSphere| (sphere.centre - camera.centre).dot(camera.viewer);
     spheres
         .iter()
         .fold([f64::INFINITY, f64::NEG_INFINITY], |[far, near], sphere| {

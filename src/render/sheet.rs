@@ -1,6 +1,6 @@
 //! Panels with title, legend of the colours, and a scale bar.
 
-use super::vector::{self, Anchor};
+use super::vector::{self, TextAnchor};
 use super::{Camera, ColorBy, Image, Scenery, Stage, panel, strip};
 use crate::color::ColorMap;
 use crate::markup::words;
@@ -32,7 +32,7 @@ pub enum Sides {
 
 /// The common part of a run's pictures.
 #[derive(Clone, Debug)]
-pub struct Sheet {
+pub struct PictureSheet {
     /// Lines above the panels.
     pub title: Vec<String>,
     /// Radius of every sphere (m).
@@ -50,7 +50,7 @@ pub struct Sheet {
     pub units: Units,
 }
 
-impl Sheet {
+impl PictureSheet {
     /// A panel of a state, `width` pixels wide, below the lines of a caption.
     pub fn panel(&self, snapshot: &Snapshot, width: usize, caption: &[String]) -> Image {
         let colors = self.color.colors(snapshot, &self.radius);
@@ -84,7 +84,7 @@ impl Sheet {
     /// Height of a picture of `count` panels of this width (pixels), with this number of caption
     /// lines.
     pub fn height(&self, count: usize, lines: usize, width: usize) -> usize {
-        let words = Words::new(self, count, width);
+        let words = SheetWords::new(self, count, width);
         let panel = panel::height(&self.cameras(), lines, width);
         words.head + panel + words.foot
     }
@@ -95,7 +95,7 @@ impl Sheet {
     /// Without any panel.
     pub fn picture(&self, panels: &[Image]) -> Image {
         let strip = strip(panels);
-        let words = Words::new(self, panels.len(), panels[0].width);
+        let words = SheetWords::new(self, panels.len(), panels[0].width);
         let mut picture = Image::white(strip.width, words.head + strip.height + words.foot);
         picture.paste(&words.draw_head(), 0, 0);
         picture.paste(&strip, 0, words.head);
@@ -117,7 +117,7 @@ fn without_front(snapshot: &Snapshot) -> Snapshot {
 }
 
 /// The words of a sheet, and the space for them (pixels).
-struct Words {
+struct SheetWords {
     width: usize,
     /// Size of the letters.
     size: f64,
@@ -128,8 +128,8 @@ struct Words {
     is_wide: bool,
 }
 
-impl Words {
-    fn new(sheet: &Sheet, count: usize, panel: usize) -> Self {
+impl SheetWords {
+    fn new(sheet: &PictureSheet, count: usize, panel: usize) -> Self {
         let width = panel::strip_width(count, panel);
         let size = LETTERS * panel as f64;
         let title: Vec<String> = sheet
@@ -169,13 +169,18 @@ impl Words {
         let lines = self.title.iter().enumerate();
         let elements: String = lines
             .map(|(index, line)| {
-                vector::text(line, (middle, self.base(index)), self.size, Anchor::Middle)
+                vector::text(
+                    line,
+                    (middle, self.base(index)),
+                    self.size,
+                    TextAnchor::Middle,
+                )
             })
             .collect();
         vector::drawing(&elements, self.width, self.head)
     }
 
-    fn draw_foot(&self, sheet: &Sheet, panel: usize) -> Image {
+    fn draw_foot(&self, sheet: &PictureSheet, panel: usize) -> Image {
         let legend = self.legend(&sheet.color, sheet.units);
         let row = usize::from(!legend.is_empty() && !self.is_wide);
         let elements = legend + &self.length(sheet, panel, row);
@@ -185,7 +190,7 @@ impl Words {
     /// The legend of the colours, as elements.
     fn legend(&self, color: &ColorBy, units: Units) -> String {
         let (size, base) = (self.size, self.base(0) + self.gap());
-        let words = |words: &str| vector::text(words, (size, base), size, Anchor::Start);
+        let words = |words: &str| vector::text(words, (size, base), size, TextAnchor::Start);
         let labelled = |word: &str, unit| format!("{word} ({})", units.shown(unit));
         let (label, low, high) = match *color {
             ColorBy::Nothing => return String::new(),
@@ -214,7 +219,7 @@ impl Words {
         let mut elements = words(&label);
         let mut x = 1.5 * size + vector::width(&label, size);
         let mut number = |x: &mut f64, text: &str| {
-            elements += &vector::text(text, (*x, base), size, Anchor::Start);
+            elements += &vector::text(text, (*x, base), size, TextAnchor::Start);
             *x += vector::width(text, size) + 0.5 * size;
         };
         let [low, high] = pair(low, high);
@@ -226,7 +231,7 @@ impl Words {
     }
 
     /// The scale bar, as elements.
-    fn length(&self, sheet: &Sheet, panel: usize, row: usize) -> String {
+    fn length(&self, sheet: &PictureSheet, panel: usize, row: usize) -> String {
         let camera = Camera::side(&sheet.stage);
         let length = round_down(0.5 * camera.view()[0]);
         let pixels = length * panel as f64 / camera.view()[0];
@@ -248,7 +253,7 @@ impl Words {
              stroke-width=\"{}\"/>",
             0.08 * size
         );
-        line + &vector::text(&text, (right + 0.5 * size, base), size, Anchor::Start)
+        line + &vector::text(&text, (right + 0.5 * size, base), size, TextAnchor::Start)
     }
 }
 

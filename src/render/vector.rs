@@ -36,16 +36,16 @@ fn draw(elements: &str, width: usize, height: usize) -> Option<tiny_skia::Pixmap
 
 /// Alignment of a text at its place.
 #[derive(Clone, Copy)]
-pub(super) enum Anchor {
+pub(super) enum TextAnchor {
     Start,
     Middle,
 }
 
 /// A line of black text of this size, with its base line at `y`.
-pub(super) fn text(text: &str, (x, y): (f64, f64), size: f64, anchor: Anchor) -> String {
+pub(super) fn text(text: &str, (x, y): (f64, f64), size: f64, anchor: TextAnchor) -> String {
     let anchor = match anchor {
-        Anchor::Start => "start",
-        Anchor::Middle => "middle",
+        TextAnchor::Start => "start",
+        TextAnchor::Middle => "middle",
     };
     // XML cannot hold control characters.
     let sound: String = text.chars().filter(|c| !c.is_control()).collect();

@@ -22,9 +22,10 @@ use crate::record::Program;
 use crate::run::Run;
 use crate::scene::{LIST_KEY, Scene};
 use serde::{Deserialize, Serialize};
+use std::fmt::Display;
 use std::fs;
 use std::io::{self, BufWriter, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// What every checkpoint begins with.
 pub const CHECKPOINT_SIGNATURE: &[u8; 21] = b"\x89phase checkpoint\r\n\x1a\n";
@@ -33,69 +34,34 @@ const VERSION: u32 = 3;
 
 /// Why a run cannot go on from a checkpoint. The file stays as it is.
 #[derive(Debug, thiserror::Error)]
-pub enum CheckpointError {
-    /// The file cannot be read.
-    #[error(transparent)]
-    Read(#[from] StoreError),
-    /// The file is something else.
-    #[error("{}: this is not a checkpoint of phase", .0.display())]
-    NotACheckpoint(PathBuf),
-    /// The file is not what was once written.
-    #[error("{}: this checkpoint is damaged or cut short: {reason}", path.display())]
-    Damaged {
-        /// The file.
-        path: PathBuf,
-        /// What shows it.
-        reason: &'static str,
-    },
-    /// The file has a layout that this program does not know.
-    #[error(
-        "{}: this checkpoint has format {found}, but this program reads format {VERSION}",
-        path.display()
-    )]
-    Version {
-        /// The file.
-        path: PathBuf,
-        /// Its version.
-        found: u32,
-    },
-    /// Another program wrote it, whose bits may differ.
-    #[error(
-        "{}: this checkpoint was written by phase {} (commit {}), but this is phase {} (commit \
-         {}), which may go on with other bits",
-        path.display(), found.version, found.commit, Program::current().version,
-        Program::current().commit
-    )]
-    OtherProgram {
-        /// The file.
-        path: PathBuf,
-        /// The program that wrote it.
-        found: Program,
-    },
-    /// It is of another scene, or of the same with other output.
-    #[error(
-        "{}: this checkpoint is of another run: they differ in {}",
-        path.display(), keys.join(", ")
-    )]
-    OtherScene {
-        /// The file.
-        path: PathBuf,
-        /// Keys in which the scenes differ.
-        keys: Vec<String>,
-    },
+#[error("{0}")]
+pub struct CheckpointError(String);
+
+impl CheckpointError {
+    fn new(path: &Path, reason: impl Display) -> Self {
+        Self(format!("{}: {reason}", path.display()))
+    }
+
+    /// The file is not what was once written; `reason` shows it.
+    pub(crate) fn damaged(path: &Path, reason: &str) -> Self {
+        Self::new(
+            path,
+            format_args!("this checkpoint is damaged or cut short: {reason}"),
+        )
+    }
+
     /// The state in it is not one of the scene.
-    #[error("{}: nothing can go on from this checkpoint: {reason}", path.display())]
-    Unfit {
-        /// The file.
-        path: PathBuf,
-        /// Why.
-        reason: String,
-    },
+    pub(crate) fn unfit(path: &Path, reason: impl Display) -> Self {
+        Self::new(
+            path,
+            format_args!("nothing can go on from this checkpoint: {reason}"),
+        )
+    }
 }
 
 /// What is read before the state.
 #[derive(Serialize, Deserialize)]
-struct Header {
+struct CheckpointHeader {
     program_version: String,
     program_commit: String,
     /// The resolved scene (JSON) without the spheres that its start lists: a million make a long
@@ -116,7 +82,7 @@ pub fn write_checkpoint(path: &Path, run: &Run) -> Result<(), StoreError> {
 /// Writes it piece by piece: a state may be most of what fits into memory.
 fn encode(run: &Run, program: &Program, file: &mut impl Write) -> io::Result<()> {
     let scene = run.scene();
-    let header = Header {
+    let header = CheckpointHeader {
         program_version: program.version.clone(),
         program_commit: program.commit.clone(),
         scene: serde_json::to_string(&scene.without_list())
@@ -160,7 +126,9 @@ pub fn read_checkpoint(path: &Path, scene: &Scene) -> Result<Option<Checkpoint>,
             Ok(Some(Checkpoint { bytes, state }))
         }
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
-        Err(error) => Err(StoreError::reading(path, error).into()),
+        Err(error) => Err(CheckpointError(
+            StoreError::reading(path, error).to_string(),
+        )),
     }
 }
 
@@ -170,15 +138,11 @@ fn find_state(
     path: &Path,
     scene: &Scene,
 ) -> Result<std::ops::Range<usize>, CheckpointError> {
-    let path = || path.to_owned();
-    let damaged = |reason| CheckpointError::Damaged {
-        path: path(),
-        reason,
-    };
+    let damaged = |reason| CheckpointError::damaged(path, reason);
     if !bytes.starts_with(CHECKPOINT_SIGNATURE) {
         return Err(match CHECKPOINT_SIGNATURE.starts_with(bytes) {
             true => damaged("it ends too early"),
-            false => CheckpointError::NotACheckpoint(path()),
+            false => CheckpointError::new(path, "this is not a checkpoint of phase"),
         });
     }
     let (body, hash) = bytes
@@ -193,17 +157,24 @@ fn find_state(
     let unreadable = |_| damaged("its content has another form");
     let (found, body) = postcard::take_from_bytes::<u32>(body).map_err(unreadable)?;
     if found != VERSION {
-        let path = path();
-        return Err(CheckpointError::Version { path, found });
+        let reason = format_args!(
+            "this checkpoint has format {found}, but this program reads format {VERSION}"
+        );
+        return Err(CheckpointError::new(path, reason));
     }
-    let (header, body) = postcard::take_from_bytes::<Header>(body).map_err(unreadable)?;
+    let (header, body) = postcard::take_from_bytes::<CheckpointHeader>(body).map_err(unreadable)?;
     let program = Program {
         version: header.program_version,
         commit: header.program_commit,
     };
-    if program != Program::current() {
-        let (path, found) = (path(), program);
-        return Err(CheckpointError::OtherProgram { path, found });
+    let own = Program::current();
+    if program != own {
+        let reason = format_args!(
+            "this checkpoint was written by phase {} (commit {}), but this is phase {} (commit \
+             {}), which may go on with other bits",
+            program.version, program.commit, own.version, own.commit
+        );
+        return Err(CheckpointError::new(path, reason));
     }
     let saved = Scene::from_json(&header.scene).map_err(|_| damaged("its scene cannot be read"))?;
     let expected = scene.without_list().without_names();
@@ -212,7 +183,9 @@ fn find_state(
         keys.push(LIST_KEY.to_owned());
     }
     if !keys.is_empty() {
-        return Err(CheckpointError::OtherScene { path: path(), keys });
+        let keys = keys.join(", ");
+        let reason = format_args!("this checkpoint is of another run: they differ in {keys}");
+        return Err(CheckpointError::new(path, reason));
     }
     let end = bytes.len() - blake3::OUT_LEN;
     Ok(end - body.len()..end)

@@ -1,4 +1,4 @@
-//! Points of a curve of another source (CSV), as of a figure of a paper.
+//! Points of a curve of another source (CSV), such as a figure in a paper.
 //!
 //! A row for each point: its place on the horizontal axis, its value, and, if the file has a third
 //! column, the half width of its interval. A first row of words names the columns; lines that
@@ -9,7 +9,7 @@ use crate::document::text;
 use csv::StringRecord;
 use std::path::Path;
 
-/// A curve of another source, as of a figure of a paper, in the units of the axes of the figure.
+/// A curve of another source, such as a figure in a paper, in the units of the figure's axes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct DataSet {
     /// What the legend calls it.
@@ -23,7 +23,7 @@ pub struct DataSet {
 /// Reads the points of a curve, which is named by its file.
 ///
 /// # Errors
-/// [`StoreError::Read`], or [`StoreError::Text`] with the line at fault.
+/// [`StoreError::Read`], with the line at fault.
 pub fn read_data_set(path: &Path) -> Result<DataSet, StoreError> {
     let content = text::read(path).map_err(|error| StoreError::reading(path, error))?;
     let mut reader = csv::ReaderBuilder::new()

@@ -1,7 +1,7 @@
 //! The thesis's own dump: a `.npy` array of frames x n x 4 with x, y, z (m) and energy (J) of every
 //! sphere, whose name says radius, density and rotation of the air.
 //!
-//! The names are those of the thesis's control script (Rice, 2012, section 7.2):
+//! The names are as in the thesis's control script (Rice, 2012, section 7.2):
 //! `dump_r00.003_p03750.0_f006.0.npy`. The script pads the radius to six characters, the analysis
 //! of section 7.3 cuts out five; names are read here by their letters, so either will do. For a
 //! seed other than 1, `_s2` and so on follows (the thesis has no seeds). In the dump of an unstable
@@ -143,11 +143,14 @@ fn values(record: &RunRecord, states: &[&Snapshot]) -> Array3<f64> {
 /// Reads the array of a dump: frames x n x 4.
 ///
 /// # Errors
-/// [`StoreError::Read`], or [`StoreError::NotADump`] if it is another kind of array.
+/// [`StoreError::Read`].
 pub fn read_dump(path: &Path) -> Result<Array3<f64>, StoreError> {
-    let not_a_dump = |reason: String| StoreError::NotADump {
-        path: path.to_owned(),
-        reason,
+    let not_a_dump = |reason: String| {
+        StoreError::Read(format!(
+            "{} is no dump, an array of frames x spheres x 4 of 64-bit floating point numbers: \
+             {reason}",
+            path.display()
+        ))
     };
     let bytes = fs::read(path).map_err(|error| StoreError::reading(path, error))?;
     // A header may promise more numbers than there are; a view asks for no memory before it knows.

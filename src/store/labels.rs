@@ -99,13 +99,13 @@ enum Cell<'a> {
 /// Reads a table of labels. Variants are in the order in which it names them first.
 ///
 /// # Errors
-/// [`StoreError::Read`], or [`StoreError::Text`] with the line at fault.
+/// [`StoreError::Read`], with the line at fault.
 pub fn read_labels(path: &Path) -> Result<LabelTable, StoreError> {
     let content = text::read(path).map_err(|error| StoreError::reading(path, error))?;
     let mut reader = csv::Reader::from_reader(content.as_bytes());
     let header = reader.headers().map_err(|error| malformed(path, &error))?;
     let header = read_header(header).map_err(|reason| StoreError::text(path, 1, reason))?;
-    let Header { family, axes, .. } = &header;
+    let LabelColumns { family, axes, .. } = &header;
     let names = columns(family, axes, header.has_steady);
     let mut variants = Vec::new();
     let rows = reader
@@ -122,14 +122,14 @@ pub fn read_labels(path: &Path) -> Result<LabelTable, StoreError> {
     for (row, line) in rows.iter().zip(2..) {
         if let Some(first) = lines.insert(&row.id, line) {
             let reason = format!(
-                "a second row of run {}, beside line {first}; remove one",
+                "duplicate row of run {}, already on line {first}; remove one",
                 row.id
             );
             return Err(StoreError::text(path, line as u64, reason));
         }
     }
     drop(lines);
-    let Header { family, axes, .. } = header;
+    let LabelColumns { family, axes, .. } = header;
     Ok(LabelTable {
         family,
         axes,
@@ -139,7 +139,7 @@ pub fn read_labels(path: &Path) -> Result<LabelTable, StoreError> {
 }
 
 /// What the header line of a table says.
-struct Header {
+struct LabelColumns {
     family: &'static Family,
     axes: Vec<String>,
     has_steady: bool,
@@ -156,14 +156,14 @@ fn columns(family: &Family, axes: &[String], has_steady: bool) -> Vec<String> {
 }
 
 /// The family whose measures the header line names, and the axes.
-fn read_header(header: &StringRecord) -> Result<Header, String> {
+fn read_header(header: &StringRecord) -> Result<LabelColumns, String> {
     let read = |family: &'static Family, has_steady: bool| {
         let others = columns(family, &[], has_steady).len();
         let axes = header.len().checked_sub(others)?;
         let axes = header.iter().skip(1).take(axes);
         let axes: Vec<_> = axes.map(str::to_owned).collect();
         let expected = columns(family, &axes, has_steady);
-        header.iter().eq(&expected).then_some(Header {
+        header.iter().eq(&expected).then_some(LabelColumns {
             family,
             axes,
             has_steady,
@@ -177,7 +177,7 @@ fn read_header(header: &StringRecord) -> Result<Header, String> {
             format!("of a {} {columns}", family.name)
         });
         format!(
-            "the header line is not that of a table of labels, which is {}; make the table again \
+            "this is not the header line of a table of labels, which is {}; make the table again \
              with `phase classify`",
             known.join(", or ")
         )
@@ -185,7 +185,7 @@ fn read_header(header: &StringRecord) -> Result<Header, String> {
 }
 
 fn read_row(
-    header: &Header,
+    header: &LabelColumns,
     names: &[String],
     variants: &mut Vec<String>,
     record: &StringRecord,

@@ -74,8 +74,8 @@ impl Lock {
         Ok(file.map(|file| Self { file, passing }))
     }
 
-    /// Locks a file beside others, none of which has [taken](Self::take) it alone. None if another
-    /// process has.
+    /// Shares the lock of a file with others. `None` if another process has [taken](Self::take) it
+    /// alone.
     ///
     /// # Errors
     /// If the file cannot be made or locked.
@@ -94,7 +94,7 @@ impl Lock {
         Self::share(path)
     }
 
-    /// Whether another process has locked a file, alone or beside others.
+    /// Whether another process has locked a file, alone or with others.
     pub fn is_taken(path: &Path) -> bool {
         let lock = File::open(path).map(|file| file.try_lock());
         matches!(lock, Ok(Err(TryLockError::WouldBlock)))

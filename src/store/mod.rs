@@ -44,35 +44,16 @@ pub use refined::{BorderRow, write_borders, write_probabilities};
 pub use rows::write_rows;
 
 use crate::refusal::Refusal;
+use std::fmt::Display;
 use std::io;
 use std::path::{Path, PathBuf};
 
 /// Why a file could not be read or written: which file, what about it, and what to do.
 #[derive(Debug, thiserror::Error)]
 pub enum StoreError {
-    /// The file cannot be opened or read.
-    #[error("cannot read {}: {source}{}", path.display(), advice(source))]
-    Read {
-        /// The file.
-        path: PathBuf,
-        /// What the system said.
-        source: io::Error,
-    },
-    /// A file that another one names cannot be opened or read.
-    #[error(
-        "cannot read {}, which {} names: {source}{}",
-        path.display(),
-        list.display(),
-        advice(source)
-    )]
-    ReadNamed {
-        /// The file.
-        path: PathBuf,
-        /// The file that names it.
-        list: PathBuf,
-        /// What the system said.
-        source: io::Error,
-    },
+    /// The file cannot be read: it is not there, or it says something it must not.
+    #[error("{0}")]
+    Read(String),
     /// The file cannot be written, for a reason other than space.
     #[error("cannot write {}: {source}{}", path.display(), advice(source))]
     Write {
@@ -109,18 +90,6 @@ pub enum StoreError {
         /// What shows it.
         reason: String,
     },
-    /// The file is something other than a dump.
-    #[error(
-        "{} is no dump, an array of frames x spheres x 4 of 64-bit floating point numbers: \
-         {reason}",
-        path.display()
-    )]
-    NotADump {
-        /// The file.
-        path: PathBuf,
-        /// What shows it.
-        reason: String,
-    },
     /// The record is of another run than its name says.
     #[error(
         "{} holds another run than its name says ({found}); remove it and run the sweep again",
@@ -132,22 +101,6 @@ pub enum StoreError {
         /// Identity of the run it holds.
         found: String,
     },
-    /// The record has a form that this program does not know.
-    #[error(
-        "{} has record format {found} (written by phase {program}), but this program \
-         reads format {known}; use that version, or delete the record and run the sweep again",
-        path.display()
-    )]
-    Format {
-        /// The record.
-        path: PathBuf,
-        /// Its format.
-        found: u64,
-        /// The format of this program.
-        known: u64,
-        /// Version of the program that wrote it.
-        program: String,
-    },
     /// What should be stored does not fit together, or does not fit the format.
     #[error("cannot write {}: {reason}", path.display())]
     Content {
@@ -155,36 +108,6 @@ pub enum StoreError {
         path: PathBuf,
         /// What does not fit.
         reason: String,
-    },
-    /// A text file says something it must not.
-    #[error("{}:{line}: {reason}", path.display())]
-    Text {
-        /// The file.
-        path: PathBuf,
-        /// Line, from 1.
-        line: u64,
-        /// What is wrong and what is expected.
-        reason: String,
-    },
-    /// An array of a file that has no lines is not as it should be.
-    #[error("{}: array `{array}`: {reason}", path.display())]
-    Array {
-        /// The file.
-        path: PathBuf,
-        /// Name of the array, or of the section of the file.
-        array: String,
-        /// What is wrong and what is expected.
-        reason: String,
-    },
-    /// A file of VTK is given in place of a list of such files.
-    #[error(
-        "{} holds one state and does not say its time; give a collection (`.pvd`) or a series \
-         (`.series`) that names the files of all times",
-        path.display()
-    )]
-    OneState {
-        /// The file.
-        path: PathBuf,
     },
 }
 
@@ -210,10 +133,8 @@ impl StoreError {
     }
 
     pub(crate) fn reading(path: &Path, source: io::Error) -> Self {
-        Self::Read {
-            path: path.to_owned(),
-            source,
-        }
+        let file = path.display();
+        Self::Read(format!("cannot read {file}: {source}{}", advice(&source)))
     }
 
     pub(crate) fn writing(path: &Path, source: io::Error) -> Self {
@@ -239,19 +160,8 @@ impl StoreError {
         }
     }
 
-    pub(crate) fn text(path: &Path, line: u64, reason: impl ToString) -> Self {
-        Self::Text {
-            path: path.to_owned(),
-            line,
-            reason: reason.to_string(),
-        }
-    }
-
-    fn array(path: &Path, array: &str, reason: impl ToString) -> Self {
-        Self::Array {
-            path: path.to_owned(),
-            array: array.to_owned(),
-            reason: reason.to_string(),
-        }
+    /// What is wrong at a line, from 1, of a text file.
+    pub(crate) fn text(path: &Path, line: u64, reason: impl Display) -> Self {
+        Self::Read(format!("{}:{line}: {reason}", path.display()))
     }
 }

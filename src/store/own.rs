@@ -26,7 +26,7 @@ fn ends(name: &str, end: &str) -> bool {
 }
 
 /// What a file is, as far as this program writes such files.
-enum Kind {
+enum OwnFile {
     /// A picture (SVG or PNG) with a stamp.
     Picture,
     /// A table (CSV) whose header line has these columns beside each other.
@@ -38,28 +38,30 @@ enum Kind {
 }
 
 /// The kind of the files of that name; none for a name that this program does not give.
-fn kind_of(name: &str) -> Option<Kind> {
+fn kind_of(name: &str) -> Option<OwnFile> {
     Some(match name {
-        "sweep.json" => Kind::Object(&["scene", "axes", "seeds"]),
-        "progress.json" => Kind::Object(&["basis", "chosen"]),
-        "accuracy.json" => Kind::Object(&["outcomes", "finding"]),
-        "ablation.json" => Kind::Object(&["ablated", "finding"]),
-        "stability.json" => Kind::Object(&["integrators"]),
-        "labels.csv" => Kind::Table("seed,label,code"),
-        "points.csv" => Kind::Table("label,code,agreement,seeds"),
-        "failed.csv" => Kind::Table("seed,reason"),
-        "refined.csv" => Kind::Table("label,code,p_"),
-        "borders.csv" => Kind::Table("along,below,above,low_68,high_68"),
-        "runs.csv" | "accuracy.csv" => Kind::Table("setting,"),
-        "ablation.csv" => Kind::Table("without,"),
-        "runs.makers.csv" => Kind::Table("id,version,commit"),
-        "verification.csv" => Kind::Table("family,case,integrator,quantity"),
-        name if name.ends_with("-observations.csv") => Kind::Table("time,"),
-        name if name.ends_with("-fixed.csv") => Kind::Table("kind,x,y,z,radius"),
-        name if name.ends_with(".xyz") => Kind::Text("Properties=species:S:1:pos:R:3:radius:R:1"),
-        name if name.ends_with(".vtp") || name.ends_with(".pvd") => Kind::Text(VTK_SIGNATURE),
-        name if name.ends_with(".1") => Kind::Text(".TH phase"),
-        name if PICTURES.iter().any(|end| ends(name, end)) => Kind::Picture,
+        "sweep.json" => OwnFile::Object(&["scene", "axes", "seeds"]),
+        "progress.json" => OwnFile::Object(&["basis", "chosen"]),
+        "accuracy.json" => OwnFile::Object(&["outcomes", "finding"]),
+        "ablation.json" => OwnFile::Object(&["ablated", "finding"]),
+        "labels.csv" => OwnFile::Table("seed,label,code"),
+        "points.csv" => OwnFile::Table("label,code,agreement,seeds"),
+        "failed.csv" => OwnFile::Table("seed,reason"),
+        "refined.csv" => OwnFile::Table("label,code,p_"),
+        "borders.csv" => OwnFile::Table("along,below,above,low_68,high_68"),
+        "runs.csv" | "accuracy.csv" => OwnFile::Table("setting,"),
+        "ablation.csv" => OwnFile::Table("without,"),
+        "stability.json" => OwnFile::Object(&["integrators"]),
+        "runs.makers.csv" => OwnFile::Table("id,version,commit"),
+        "verification.csv" => OwnFile::Table("family,case,integrator,quantity"),
+        name if name.ends_with("-observations.csv") => OwnFile::Table("time,"),
+        name if name.ends_with("-fixed.csv") => OwnFile::Table("kind,x,y,z,radius"),
+        name if name.ends_with(".xyz") => {
+            OwnFile::Text("Properties=species:S:1:pos:R:3:radius:R:1")
+        }
+        name if name.ends_with(".vtp") || name.ends_with(".pvd") => OwnFile::Text(VTK_SIGNATURE),
+        name if name.ends_with(".1") => OwnFile::Text(".TH phase"),
+        name if PICTURES.iter().any(|end| ends(name, end)) => OwnFile::Picture,
         _ => return None,
     })
 }
@@ -75,7 +77,7 @@ pub fn is_own_file(path: &Path) -> bool {
         return false;
     };
     let most = match kind {
-        Kind::Object(_) => u64::MAX,
+        OwnFile::Object(_) => u64::MAX,
         _ => BEGINNING,
     };
     read(path, most).is_ok_and(|bytes| bytes.is_empty() || kind.is_of(&bytes))
@@ -88,7 +90,7 @@ fn read(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-impl Kind {
+impl OwnFile {
     /// Whether a file that begins with these bytes is of this kind; an object is given as a whole.
     fn is_of(&self, bytes: &[u8]) -> bool {
         let holds = |bytes: &[u8], text: &[u8]| bytes.windows(text.len()).any(|it| it == text);

@@ -31,7 +31,7 @@ pub struct BorderRow {
 }
 
 /// Writes the probability of each label at each point of a lattice with these names of axes. The
-/// labels are those of the codes, by their names.
+/// labels are the names of the codes.
 ///
 /// # Errors
 /// [`StoreError::DiskFull`] or [`StoreError::Write`].

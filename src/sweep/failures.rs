@@ -24,9 +24,9 @@ impl<'a> FailureTable<'a> {
         Self { axes, path }
     }
 
-    /// Appends a failure.
+    /// Appends a failure. A row that another process loses while it tidies the table is noted again
+    /// at the end.
     pub(super) fn append(&self, failure: &Failure) -> Result<(), StoreError> {
-        let _lock = self.lock()?;
         let fail = |error| StoreError::writing(&self.path, error);
         let mut file = OpenOptions::new();
         let file = file.append(true).create(true).open(&self.path);
@@ -57,7 +57,11 @@ impl<'a> FailureTable<'a> {
         if more.is_empty() && !self.path.exists() {
             return Ok(());
         }
-        let _lock = self.lock()?;
+        // One that has been stopped while it tidies is not waited for.
+        let _lock = retry(50, Duration::from_millis(20), || {
+            Lock::take_beside(&self.path)
+        })
+        .map_err(|error| StoreError::writing(&self.path, error))?;
         let mut text = self.header()?;
         let before = fs::read(&self.path).unwrap_or_default();
         let noted = match before.starts_with(&text) {
@@ -82,15 +86,6 @@ impl<'a> FailureTable<'a> {
             }
             _ => Ok(()),
         }
-    }
-
-    /// Keeps other processes out. If one has stopped in the middle of its writing, a row may be
-    /// lost, which is better than to wait for it.
-    fn lock(&self) -> Result<Option<Lock>, StoreError> {
-        retry(50, Duration::from_millis(20), || {
-            Lock::take_beside(&self.path)
-        })
-        .map_err(|error| StoreError::writing(&self.path, error))
     }
 
     fn header(&self) -> Result<Vec<u8>, StoreError> {
@@ -159,11 +154,16 @@ pub fn read_failures(axes: &[Axis], path: &Path) -> Result<Vec<Failure>, StoreEr
     if !path.exists() {
         return Ok(Vec::new());
     }
-    let mut table =
-        csv::Reader::from_path(path).map_err(|error| StoreError::reading(path, error.into()))?;
+    let mut table = csv::ReaderBuilder::new();
+    let table = table.has_headers(false).from_path(path);
+    let mut table = table.map_err(|error| StoreError::reading(path, error.into()))?;
     let mut failures = Vec::new();
     for row in table.records() {
         let row = row.map_err(|error| StoreError::reading(path, error.into()))?;
+        if row.get(0) == Some("id") {
+            // The header; two processes that begin the table write two.
+            continue;
+        }
         let line = row.position().map_or(1, csv::Position::line);
         failures.push(parse(axes, &row).ok_or_else(|| {
             StoreError::text(

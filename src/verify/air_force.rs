@@ -1,7 +1,7 @@
 //! Forces of the air on spheres at given places.
 
 use super::bench::{Bench, unguarded};
-use super::{Family, Measured, VerifyError, numbered};
+use super::{CaseFamily, MeasuredValues, VerifyError, numbered};
 use crate::dem::DemSimulation;
 use crate::particles::vector::Vector;
 use crate::scene::{DemScene, Drag, Effects, Scene, StartSphere, Swirl, Updraught};
@@ -29,12 +29,12 @@ const DT: f64 = 1e-12;
 /// Density (kg/m3), without effect on the forces.
 const DENSITY: f64 = 1000.0;
 
-impl Family for AirForce {
+impl CaseFamily for AirForce {
     fn name(&self) -> &'static str {
         "air-force"
     }
 
-    fn measure(&self, bench: &mut Bench<'_>) -> Result<Measured, VerifyError> {
+    fn measure(&self, bench: &mut Bench<'_>) -> Result<MeasuredValues, VerifyError> {
         let scene = Scene {
             dem: DemScene {
                 effects: Effects {

@@ -1,7 +1,7 @@
 //! Convergence of the motion as the time step shrinks.
 
 use super::bench::Bench;
-use super::{Family, Measured, VerifyError, named};
+use super::{CaseFamily, MeasuredValues, VerifyError, named};
 use crate::dem::DemSimulation;
 use crate::scene::{DemScene, Guards, Scene, Time};
 use serde::Deserialize;
@@ -15,12 +15,12 @@ pub struct Convergence {
     scene: Box<Scene>,
 }
 
-impl Family for Convergence {
+impl CaseFamily for Convergence {
     fn name(&self) -> &'static str {
         "convergence"
     }
 
-    fn measure(&self, bench: &mut Bench<'_>) -> Result<Measured, VerifyError> {
+    fn measure(&self, bench: &mut Bench<'_>) -> Result<MeasuredValues, VerifyError> {
         let dt = self.scene.time.dt;
         let states = [dt, 0.5 * dt, 0.25 * dt].map(|dt| self.end(dt, bench));
         let [coarse, middle, fine] = states;

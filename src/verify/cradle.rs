@@ -1,7 +1,7 @@
 //! Newton's cradle: spheres in a row, hit by the first of them.
 
 use super::bench::{Bench, Material, moving, unguarded};
-use super::{Family, Measured, VerifyError, numbered};
+use super::{CaseFamily, MeasuredValues, VerifyError, numbered};
 use crate::dem::DemSimulation;
 use crate::particles::Particles;
 use crate::scene::{DemScene, Scene};
@@ -36,12 +36,12 @@ fn one_sphere() -> usize {
 /// gaps.
 const PATIENCE: f64 = 1000.0;
 
-impl Family for Cradle {
+impl CaseFamily for Cradle {
     fn name(&self) -> &'static str {
         "cradle"
     }
 
-    fn measure(&self, bench: &mut Bench<'_>) -> Result<Measured, VerifyError> {
+    fn measure(&self, bench: &mut Bench<'_>) -> Result<MeasuredValues, VerifyError> {
         let mass = self.material.mass(self.radius);
         let impact = self
             .material

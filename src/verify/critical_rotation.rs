@@ -1,7 +1,7 @@
 //! The critical rotation of the tank, in closed form.
 
 use super::bench::Bench;
-use super::{Family, Measured, VerifyError, named};
+use super::{CaseFamily, MeasuredValues, VerifyError, named};
 use crate::theory;
 use serde::Deserialize;
 
@@ -19,12 +19,12 @@ pub struct CriticalRotation {
     gravity: f64,
 }
 
-impl Family for CriticalRotation {
+impl CaseFamily for CriticalRotation {
     fn name(&self) -> &'static str {
         "critical-rotation"
     }
 
-    fn measure(&self, _: &mut Bench) -> Result<Measured, VerifyError> {
+    fn measure(&self, _: &mut Bench) -> Result<MeasuredValues, VerifyError> {
         let omega =
             theory::critical_rotation(self.count, self.radius, self.tank_radius, self.gravity);
         Ok(named([("omega", omega)]))

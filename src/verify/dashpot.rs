@@ -1,7 +1,7 @@
 //! Two discs, or a disc and a fixed one, hit each other head-on under the linear spring-dashpot.
 
 use super::bench::{Bench, moving, reduced};
-use super::{Family, Measured, VerifyError, named};
+use super::{CaseFamily, MeasuredValues, VerifyError, named};
 use crate::dem::DemSimulation;
 use crate::dem::timestep::LinearImpact;
 use crate::scene::{
@@ -35,13 +35,13 @@ pub struct Dashpot {
 /// An impact takes less than this many times its closed-form duration.
 const PATIENCE: f64 = 10.0;
 
-impl Family for Dashpot {
+impl CaseFamily for Dashpot {
     fn name(&self) -> &'static str {
         "dashpot"
     }
 
     /// Contact time and restitution, measured; the limit of the time step, 2/w, in closed form.
-    fn measure(&self, bench: &mut Bench<'_>) -> Result<Measured, VerifyError> {
+    fn measure(&self, bench: &mut Bench<'_>) -> Result<MeasuredValues, VerifyError> {
         let impact = self.closed_form();
         let dt = impact.contact_time() / self.steps_per_contact;
         let mut simulation = DemSimulation::new(&self.scene(dt, bench))?;

@@ -1,7 +1,7 @@
 //! A single sphere in air, or in a fluid, and gravity.
 
 use super::bench::{Bench, moving, unguarded};
-use super::{Family, Measured, VerifyError, named};
+use super::{CaseFamily, MeasuredValues, VerifyError, named};
 use crate::dem::DemSimulation;
 use crate::scene::{
     AddedMass, Buoyancy, Contact, ContactDrag, Coulomb, DemScene, Drag, Effects, Friction, Gravity,
@@ -47,12 +47,12 @@ pub struct Flight {
     duration: f64,
 }
 
-impl Family for Flight {
+impl CaseFamily for Flight {
     fn name(&self) -> &'static str {
         "flight"
     }
 
-    fn measure(&self, bench: &mut Bench<'_>) -> Result<Measured, VerifyError> {
+    fn measure(&self, bench: &mut Bench<'_>) -> Result<MeasuredValues, VerifyError> {
         let sphere = StartSphere {
             spin: self.spin,
             ..moving(self.position, self.velocity)

@@ -1,7 +1,7 @@
 //! An elastic gas in the tank.
 
 use super::bench::{Bench, Material, downward, unguarded};
-use super::{Family, Measured, VerifyError, named};
+use super::{CaseFamily, MeasuredValues, VerifyError, named};
 use crate::dem::DemSimulation;
 use crate::scene::{DemScene, Effects, Scene, Spheres, Start, Tank};
 use serde::Deserialize;
@@ -32,12 +32,12 @@ pub struct Gas {
 /// Number of energy checks in a run.
 const LOOKS: u32 = 1000;
 
-impl Family for Gas {
+impl CaseFamily for Gas {
     fn name(&self) -> &'static str {
         "gas"
     }
 
-    fn measure(&self, bench: &mut Bench<'_>) -> Result<Measured, VerifyError> {
+    fn measure(&self, bench: &mut Bench<'_>) -> Result<MeasuredValues, VerifyError> {
         let [energy, momentum] = self.drifts(self.dt, bench)?;
         let mut measured = named([
             ("energy_drift", energy),

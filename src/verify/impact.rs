@@ -1,7 +1,7 @@
 //! A sphere hits a sphere or a wall, head-on or obliquely, with or without spin.
 
 use super::bench::{Bench, Material, floor, moving, reduced, unguarded};
-use super::{Family, Measured, VerifyError, named};
+use super::{CaseFamily, MeasuredValues, VerifyError, named};
 use crate::dem::{DemSimulation, timestep};
 use crate::particles::Particles;
 use crate::particles::vector::Vector;
@@ -18,8 +18,8 @@ use std::f64::consts::PI;
 /// the frame of their centre of mass.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Impact {
-    partner: Partner,
+pub struct ImpactCase {
+    partner: ImpactPartner,
     /// Radius of the sphere (m).
     radius: f64,
     /// Radius of the partner, if it is a sphere of different radius (m).
@@ -77,14 +77,14 @@ fn once() -> u32 {
 /// What the sphere hits.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-enum Partner {
+enum ImpactPartner {
     Sphere,
     Floor,
     /// Tangential motion is along the axis, where a cylinder is straight.
     Cylinder,
 }
 
-impl Partner {
+impl ImpactPartner {
     /// Normal and tangent.
     fn frame(self) -> (Vector, Vector) {
         let (x, z) = (Vector::new(1.0, 0.0, 0.0), Vector::new(0.0, 0.0, 1.0));
@@ -101,13 +101,13 @@ const CYLINDER: f64 = 100.0;
 /// An impact takes less than this many times the duration of the elastic impact.
 const PATIENCE: f64 = 100.0;
 
-impl Family for Impact {
+impl CaseFamily for ImpactCase {
     fn name(&self) -> &'static str {
         "impact"
     }
 
-    fn measure(&self, bench: &mut Bench<'_>) -> Result<Measured, VerifyError> {
-        let mut mean = Measured::new();
+    fn measure(&self, bench: &mut Bench<'_>) -> Result<MeasuredValues, VerifyError> {
+        let mut mean = MeasuredValues::new();
         for phase in 0..self.phases {
             let phase = f64::from(phase) / f64::from(self.phases);
             for (quantity, value) in self.impact(phase, bench)? {
@@ -120,15 +120,15 @@ impl Family for Impact {
 
 /// Overlap and force at one time.
 #[derive(Clone, Copy, Default)]
-struct Moment {
+struct ImpactMoment {
     time: f64,
     overlap: f64,
     force: f64,
 }
 
-impl Impact {
+impl ImpactCase {
     /// One impact that begins after the fraction `phase` of a step.
-    fn impact(&self, phase: f64, bench: &mut Bench<'_>) -> Result<Measured, VerifyError> {
+    fn impact(&self, phase: f64, bench: &mut Bench<'_>) -> Result<MeasuredValues, VerifyError> {
         let material = self.hardened();
         let contact_time = self.elastic(&material).contact_time();
         let dt = self.dt.unwrap_or(contact_time / self.steps_per_contact);
@@ -138,13 +138,13 @@ impl Impact {
         let before = self.state(simulation.particles());
 
         let (mut maximum_overlap, mut maximum_force) = (0.0_f64, 0.0_f64);
-        let (mut earlier, mut last) = (Moment::default(), Moment::default());
+        let (mut earlier, mut last) = (ImpactMoment::default(), ImpactMoment::default());
         let mut end = None;
         loop {
             let overlap = self.overlap(simulation.particles());
             bench.advance(&mut simulation, 1)?;
             let (age, after) = (bench.age_of_forces(), self.overlap(simulation.particles()));
-            let now = Moment {
+            let now = ImpactMoment {
                 time: simulation.time() - age * dt,
                 overlap: after + (overlap - after) * age,
                 force: self.force(simulation.particles()),
@@ -202,15 +202,15 @@ impl Impact {
     /// The same impact without dissipation and friction.
     fn elastic(&self, material: &Material) -> timestep::Impact {
         let radius = match self.partner {
-            Partner::Sphere => reduced(self.radius, self.partner_radius()),
-            Partner::Floor | Partner::Cylinder => self.radius,
+            ImpactPartner::Sphere => reduced(self.radius, self.partner_radius()),
+            ImpactPartner::Floor | ImpactPartner::Cylinder => self.radius,
         };
         let mass = match self.partner {
-            Partner::Sphere => reduced(
+            ImpactPartner::Sphere => reduced(
                 material.mass(self.radius),
                 material.mass(self.partner_radius()),
             ),
-            Partner::Floor | Partner::Cylinder => material.mass(self.radius),
+            ImpactPartner::Floor | ImpactPartner::Cylinder => material.mass(self.radius),
         };
         let inertial_factor = self.added_mass.as_ref().map_or(1.0, |it| {
             1.0 + it.coefficient * it.density / material.density
@@ -227,8 +227,8 @@ impl Impact {
         let sine = libm::sin(self.angle * PI / 180.0);
         let velocity = tangent * (self.speed * sine) - normal * self.normal_speed();
         let centre = match self.partner {
-            Partner::Sphere | Partner::Floor => normal * self.radius,
-            Partner::Cylinder => normal * (self.radius * (1.0 - CYLINDER)),
+            ImpactPartner::Sphere | ImpactPartner::Floor => normal * self.radius,
+            ImpactPartner::Cylinder => normal * (self.radius * (1.0 - CYLINDER)),
         };
         let sphere = |centre: Vector, velocity: Vector, spin: f64| {
             let start = centre - velocity * begin;
@@ -244,7 +244,7 @@ impl Impact {
         let mut spheres = vec![sphere(centre, velocity, self.spin)];
         let mut tank = None;
         match self.partner {
-            Partner::Sphere => {
+            ImpactPartner::Sphere => {
                 let (mine, other) = (
                     material.mass(self.radius),
                     material.mass(self.partner_radius()),
@@ -262,10 +262,10 @@ impl Impact {
                     },
                 ];
             }
-            Partner::Floor => {
+            ImpactPartner::Floor => {
                 tank = Some(floor());
             }
-            Partner::Cylinder => {
+            ImpactPartner::Cylinder => {
                 tank = Some(Tank {
                     radius: Some(CYLINDER * self.radius),
                     ..Tank::default()
@@ -315,11 +315,11 @@ impl Impact {
     fn overlap(&self, particles: &Particles) -> f64 {
         let centre = particles.position[0];
         match self.partner {
-            Partner::Sphere => {
+            ImpactPartner::Sphere => {
                 self.radius + self.partner_radius() - (centre - particles.position[1]).norm()
             }
-            Partner::Floor => self.radius - centre.z,
-            Partner::Cylinder => {
+            ImpactPartner::Floor => self.radius - centre.z,
+            ImpactPartner::Cylinder => {
                 let distance = Vector::new(centre.x, centre.y, 0.0).norm();
                 distance + self.radius - CYLINDER * self.radius
             }
@@ -329,26 +329,26 @@ impl Impact {
     /// Normal force on the sphere.
     fn force(&self, particles: &Particles) -> f64 {
         let normal = match self.partner {
-            Partner::Sphere => {
+            ImpactPartner::Sphere => {
                 let offset = particles.position[0] - particles.position[1];
                 offset * (1.0 / offset.norm())
             }
-            Partner::Floor | Partner::Cylinder => self.partner.frame().0,
+            ImpactPartner::Floor | ImpactPartner::Cylinder => self.partner.frame().0,
         };
         particles.force[0].dot(normal)
     }
 
-    fn state(&self, particles: &Particles) -> State {
+    fn state(&self, particles: &Particles) -> ImpactState {
         let (normal, tangent) = self.partner.frame();
         let axis = normal.cross(tangent);
         let velocity = match self.partner {
-            Partner::Sphere => particles.velocity[0] - particles.velocity[1],
-            Partner::Floor | Partner::Cylinder => particles.velocity[0],
+            ImpactPartner::Sphere => particles.velocity[0] - particles.velocity[1],
+            ImpactPartner::Floor | ImpactPartner::Cylinder => particles.velocity[0],
         };
         let spin = |i: usize| particles.spin.get(i).map_or(0.0, |spin| spin.dot(axis));
         let kinetic = particles.mass.iter().zip(&particles.velocity);
         let rotational = particles.inertia.iter().zip(&particles.spin);
-        State {
+        ImpactState {
             normal: velocity.dot(normal),
             tangential: velocity.dot(tangent),
             lateral: particles.velocity[0].dot(tangent),
@@ -362,7 +362,7 @@ impl Impact {
 }
 
 /// Motion before or after the impact.
-struct State {
+struct ImpactState {
     normal: f64,
     tangential: f64,
     lateral: f64,
@@ -372,7 +372,7 @@ struct State {
 
 /// When the force ended, between the last two moments, by linear extrapolation to zero: of the
 /// overlap if it ends with the force, else of the clipped force.
-fn end_of_contact(earlier: Moment, last: Moment, now: Moment) -> f64 {
+fn end_of_contact(earlier: ImpactMoment, last: ImpactMoment, now: ImpactMoment) -> f64 {
     if now.overlap <= 0.0 {
         let fraction = last.overlap / (last.overlap - now.overlap);
         last.time + fraction * (now.time - last.time)

@@ -1,7 +1,7 @@
 //! A sphere rolls or slides down an incline.
 
 use super::bench::{AnyMaterial, Bench, at, floor, unguarded};
-use super::{Family, Measured, VerifyError, named};
+use super::{CaseFamily, MeasuredValues, VerifyError, named};
 use crate::dem::DemSimulation;
 use crate::scene::{DemScene, Effects, Friction, Gravity, Scene};
 use serde::Deserialize;
@@ -25,12 +25,12 @@ pub struct Incline {
     duration: f64,
 }
 
-impl Family for Incline {
+impl CaseFamily for Incline {
     fn name(&self) -> &'static str {
         "incline"
     }
 
-    fn measure(&self, bench: &mut Bench<'_>) -> Result<Measured, VerifyError> {
+    fn measure(&self, bench: &mut Bench<'_>) -> Result<MeasuredValues, VerifyError> {
         let tilt = self.angle * PI / 180.0;
         let weight = self.material.mass(self.radius) * self.gravity * libm::cos(tilt);
         let rest = self.material.overlap(self.radius, weight);

@@ -2,8 +2,8 @@
 //!
 //! A [`Case`] is a row of data: a set-up, the expected numbers, a tolerance, a source. A family is
 //! a kind of set-up with its parameters: a file that simulates and measures it, and a table of
-//! cases. A new case is a new row; a new family is a file, its table, and a line each in [`Setup`]
-//! and `TABLES`.
+//! cases. A new case is a new row; a new family is a file, its table, and a line each in
+//! [`CaseSetup`] and `TABLES`.
 //!
 //! ```
 //! use phase::{scene::Integrator, verify};
@@ -78,11 +78,11 @@ pub struct Case {
     /// A unique short description.
     pub name: String,
     /// The family and its parameters.
-    pub setup: Setup,
+    pub setup: CaseSetup,
     /// Quantities that the family measures, in SI units, and their expected numbers.
     pub expect: BTreeMap<String, f64>,
     /// Allowed deviation of a measurement from its number.
-    pub tolerance: Tolerance,
+    pub tolerance: CaseTolerance,
     /// Source of the numbers.
     pub source: String,
     /// Integrators that are expected to pass; all, if the row does not say.
@@ -97,14 +97,14 @@ fn all_integrators() -> Vec<Integrator> {
 /// Allowed deviation of a measurement from its number.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Tolerance {
+pub enum CaseTolerance {
     /// As a fraction of the number.
     Relative(f64),
     /// In the unit of the number.
     Absolute(f64),
 }
 
-impl Tolerance {
+impl CaseTolerance {
     /// Error of a measurement, on the scale of this tolerance.
     fn error(self, measured: f64, expected: f64) -> f64 {
         let difference = (measured - expected).abs();
@@ -125,9 +125,9 @@ impl Tolerance {
 /// A family with the parameters of one set-up.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(tag = "family", rename_all = "kebab-case")]
-pub enum Setup {
+pub enum CaseSetup {
     /// A sphere hits a sphere or a wall.
-    Impact(impact::Impact),
+    Impact(impact::ImpactCase),
     /// Two discs, or a disc and a fixed one, hit each other under the linear contact.
     Dashpot(dashpot::Dashpot),
     /// A sphere hits another one, or something fixed, under the contact of Silbert et al.
@@ -137,7 +137,7 @@ pub enum Setup {
     /// Spheres in a row, hit by the first of them.
     Cradle(cradle::Cradle),
     /// A sphere slides on the floor until it rolls.
-    Rolling(rolling::Rolling),
+    Rolling(rolling::RollingCase),
     /// A sphere rolls or slides down an incline.
     Incline(incline::Incline),
     /// A sphere rolls against rolling resistance, on the level or on an incline.
@@ -166,8 +166,8 @@ pub enum Setup {
     SpotFlow(spot_flow::SpotFlow),
 }
 
-impl Setup {
-    fn family(&self) -> &dyn Family {
+impl CaseSetup {
+    fn family(&self) -> &dyn CaseFamily {
         match self {
             Self::Impact(it) => it,
             Self::Dashpot(it) => it,
@@ -198,19 +198,19 @@ impl Setup {
 }
 
 /// A kind of set-up.
-trait Family {
+trait CaseFamily {
     /// Its name, as in the tables.
     fn name(&self) -> &'static str;
 
     /// Simulates the set-up and measures it.
-    fn measure(&self, bench: &mut Bench<'_>) -> Result<Measured, VerifyError>;
+    fn measure(&self, bench: &mut Bench<'_>) -> Result<MeasuredValues, VerifyError>;
 }
 
 /// Quantities and their measured values (SI units).
-type Measured = BTreeMap<String, f64>;
+type MeasuredValues = BTreeMap<String, f64>;
 
 /// Names quantities numbered from 1.
-fn numbered(quantity: &str, values: impl IntoIterator<Item = f64>) -> Measured {
+fn numbered(quantity: &str, values: impl IntoIterator<Item = f64>) -> MeasuredValues {
     let values = values.into_iter().enumerate();
     values
         .map(|(i, value)| (format!("{quantity}_{}", i + 1), value))
@@ -218,7 +218,7 @@ fn numbered(quantity: &str, values: impl IntoIterator<Item = f64>) -> Measured {
 }
 
 /// Names quantities.
-fn named<const N: usize>(quantities: [(&str, f64); N]) -> Measured {
+fn named<const N: usize>(quantities: [(&str, f64); N]) -> MeasuredValues {
     quantities
         .map(|(quantity, value)| (quantity.to_owned(), value))
         .into()
@@ -248,7 +248,7 @@ impl Check {
 
 /// The outcome of a case.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Outcome {
+pub struct CaseOutcome {
     /// The comparison of every expected number.
     pub checks: Vec<Check>,
     /// Steps simulated.
@@ -259,7 +259,7 @@ pub struct Outcome {
     pub cpu_seconds: f64,
 }
 
-impl Outcome {
+impl CaseOutcome {
     /// Whether every measurement is within its tolerance.
     pub fn passed(&self) -> bool {
         self.checks.iter().all(Check::passed)
@@ -347,7 +347,7 @@ pub fn parse(text: &str) -> Result<Vec<Case>, toml::de::Error> {
 /// # Errors
 /// If the set-up cannot be simulated, or the case expects a quantity that its family does not
 /// measure.
-pub fn run(case: &Case, integrator: Integrator) -> Result<Outcome, VerifyError> {
+pub fn run(case: &Case, integrator: Integrator) -> Result<CaseOutcome, VerifyError> {
     run_until(case, integrator, &AtomicBool::new(false))
 }
 
@@ -359,7 +359,7 @@ pub fn run_until(
     case: &Case,
     integrator: Integrator,
     stop: &AtomicBool,
-) -> Result<Outcome, VerifyError> {
+) -> Result<CaseOutcome, VerifyError> {
     let started = cpu_time::of_this_thread();
     let mut bench = Bench::new(integrator, &case.expect, stop);
     let measured = case.setup.family().measure(&mut bench)?;
@@ -376,7 +376,7 @@ pub fn run_until(
             known: measured.keys().cloned().collect::<Vec<_>>().join(", "),
         }),
     };
-    Ok(Outcome {
+    Ok(CaseOutcome {
         checks: case.expect.iter().map(check).collect::<Result<_, _>>()?,
         steps: bench.steps(),
         moves: bench.moves(),

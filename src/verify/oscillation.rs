@@ -1,7 +1,7 @@
 //! A sphere on the floor oscillates about its rest position.
 
 use super::bench::{AnyMaterial, Bench, downward, floor, moving, unguarded};
-use super::{Family, Measured, VerifyError, named};
+use super::{CaseFamily, MeasuredValues, VerifyError, named};
 use crate::dem::DemSimulation;
 use crate::scene::{DemScene, Effects, Friction, Scene};
 use serde::Deserialize;
@@ -41,12 +41,12 @@ enum Mode {
 /// Number of steps after which a set-up that does not oscillate is given up.
 const PATIENCE: u64 = 10_000_000;
 
-impl Family for Oscillation {
+impl CaseFamily for Oscillation {
     fn name(&self) -> &'static str {
         "oscillation"
     }
 
-    fn measure(&self, bench: &mut Bench<'_>) -> Result<Measured, VerifyError> {
+    fn measure(&self, bench: &mut Bench<'_>) -> Result<MeasuredValues, VerifyError> {
         let mass = self.material.mass(self.radius);
         let rest = self.material.overlap(self.radius, mass * self.gravity);
         let velocity = match self.mode {

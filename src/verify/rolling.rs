@@ -1,7 +1,7 @@
 //! A sphere slides on the floor until it rolls.
 
 use super::bench::{AnyMaterial, Bench, downward, floor, moving, unguarded};
-use super::{Family, Measured, VerifyError, named};
+use super::{CaseFamily, MeasuredValues, VerifyError, named};
 use crate::dem::DemSimulation;
 use crate::particles::Particles;
 use crate::scene::{Coulomb, DemScene, Effects, Friction, Scene, StartSphere};
@@ -10,7 +10,7 @@ use serde::Deserialize;
 /// A sphere slides along x on the floor, pressed by its weight, until it rolls.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Rolling {
+pub struct RollingCase {
     /// Radius (m).
     radius: f64,
     material: AnyMaterial,
@@ -28,12 +28,12 @@ pub struct Rolling {
     duration: f64,
 }
 
-impl Family for Rolling {
+impl CaseFamily for RollingCase {
     fn name(&self) -> &'static str {
         "rolling"
     }
 
-    fn measure(&self, bench: &mut Bench<'_>) -> Result<Measured, VerifyError> {
+    fn measure(&self, bench: &mut Bench<'_>) -> Result<MeasuredValues, VerifyError> {
         let mut simulation = DemSimulation::new(&self.scene(bench))?;
         // Sliding ends when friction drops below its full size: below the speed of regularisation,
         // or when the sliding reverses.
@@ -44,7 +44,7 @@ impl Family for Rolling {
         let sign = (self.speed - self.spin * self.radius).signum();
         let moment = |simulation: &DemSimulation| {
             let particles = simulation.particles();
-            Moment {
+            RollingMoment {
                 time: simulation.time(),
                 sliding: sign * self.sliding_speed(particles),
                 distance: particles.position[0].x,
@@ -77,13 +77,13 @@ impl Family for Rolling {
 }
 
 #[derive(Clone, Copy)]
-struct Moment {
+struct RollingMoment {
     time: f64,
     sliding: f64,
     distance: f64,
 }
 
-impl Moment {
+impl RollingMoment {
     /// The moment without sliding, by linear interpolation between this moment and the next.
     fn straight_on(self, next: Self) -> Self {
         let ahead = next.sliding / (self.sliding - next.sliding);
@@ -95,7 +95,7 @@ impl Moment {
     }
 }
 
-impl Rolling {
+impl RollingCase {
     fn scene(&self, bench: &Bench<'_>) -> Scene {
         let weight = self.material.mass(self.radius) * self.gravity;
         let height = self.radius - self.material.overlap(self.radius, weight);

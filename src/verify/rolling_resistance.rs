@@ -1,7 +1,7 @@
 //! A sphere rolls against rolling resistance, on the level or on an incline.
 
 use super::bench::{AnyMaterial, Bench, floor, moving, unguarded};
-use super::{Family, Measured, VerifyError, named};
+use super::{CaseFamily, MeasuredValues, VerifyError, named};
 use crate::dem::DemSimulation;
 use crate::scene::{DemScene, Effects, Friction, Gravity, Rolling, Scene, StartSphere};
 use serde::Deserialize;
@@ -30,12 +30,12 @@ pub struct RollingResistance {
     duration: f64,
 }
 
-impl Family for RollingResistance {
+impl CaseFamily for RollingResistance {
     fn name(&self) -> &'static str {
         "rolling-resistance"
     }
 
-    fn measure(&self, bench: &mut Bench<'_>) -> Result<Measured, VerifyError> {
+    fn measure(&self, bench: &mut Bench<'_>) -> Result<MeasuredValues, VerifyError> {
         let mut simulation = DemSimulation::new(&self.scene(bench))?;
         let place = |simulation: &DemSimulation| simulation.particles().position[0].x;
         let speed = |simulation: &DemSimulation| simulation.particles().velocity[0].x;

@@ -2,7 +2,7 @@
 //! head-on or obliquely with their friction.
 
 use super::bench::{Bench, SilbertMaterial, moving, unguarded};
-use super::{Family, Measured, VerifyError, named};
+use super::{CaseFamily, MeasuredValues, VerifyError, named};
 use crate::dem::DemSimulation;
 use crate::particles::vector::Vector;
 use crate::scene::{DemScene, FixedSphere, Friction, Geometry, Scene, Tank};
@@ -13,7 +13,7 @@ use std::f64::consts::PI;
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SilbertImpact {
-    partner: Partner,
+    partner: SilbertPartner,
     /// Radius of the sphere (m).
     radius: f64,
     /// Radius of the partner, if it is a sphere of different radius (m).
@@ -35,7 +35,7 @@ pub struct SilbertImpact {
 /// What the sphere hits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-enum Partner {
+enum SilbertPartner {
     Sphere,
     FixedSphere,
     /// A side of a box.
@@ -45,14 +45,14 @@ enum Partner {
 /// An impact takes less than this many times the duration of the elastic impact.
 const PATIENCE: f64 = 10.0;
 
-impl Family for SilbertImpact {
+impl CaseFamily for SilbertImpact {
     fn name(&self) -> &'static str {
         "silbert-impact"
     }
 
     /// Contact time, restitution and deepest overlap of a head-on impact; the spin of the sphere
     /// (rad/s), positive if it rolls forward, after oblique impacts.
-    fn measure(&self, bench: &mut Bench<'_>) -> Result<Measured, VerifyError> {
+    fn measure(&self, bench: &mut Bench<'_>) -> Result<MeasuredValues, VerifyError> {
         if self.angles.is_empty() {
             let outcome = self.impact(0.0, bench)?;
             return Ok(named([
@@ -70,7 +70,7 @@ impl Family for SilbertImpact {
 }
 
 /// The result of an impact.
-struct Outcome {
+struct ReboundOfPair {
     contact_time: f64,
     restitution: f64,
     maximum_overlap: f64,
@@ -79,7 +79,7 @@ struct Outcome {
 
 impl SilbertImpact {
     /// An impact at an angle (degrees).
-    fn impact(&self, angle: f64, bench: &mut Bench<'_>) -> Result<Outcome, VerifyError> {
+    fn impact(&self, angle: f64, bench: &mut Bench<'_>) -> Result<ReboundOfPair, VerifyError> {
         let (sine, cosine) = libm::sincos(angle * PI / 180.0);
         let velocity = Vector::new(-cosine, 0.0, sine) * self.speed;
         let dt = self.elastic_time(-velocity.x) / self.steps_per_contact;
@@ -96,7 +96,7 @@ impl SilbertImpact {
                 let behind = overlap / (overlap - earlier);
                 let particles = simulation.particles();
                 let spin = particles.spin.get(particles.fixed);
-                return Ok(Outcome {
+                return Ok(ReboundOfPair {
                     contact_time: simulation.time() - behind * dt,
                     restitution: apart / -velocity.x,
                     maximum_overlap: deepest,
@@ -119,12 +119,12 @@ impl SilbertImpact {
         let (radius, other) = (self.radius, self.partner_radius());
         let mass = |radius| self.material.mass(radius);
         let (effective_radius, effective_mass) = match self.partner {
-            Partner::Sphere => (
+            SilbertPartner::Sphere => (
                 radius * other / (radius + other),
                 mass(radius) * mass(other) / (mass(radius) + mass(other)),
             ),
-            Partner::FixedSphere => (radius * other / (radius + other), mass(radius)),
-            Partner::Side => (radius, mass(radius)),
+            SilbertPartner::FixedSphere => (radius * other / (radius + other), mass(radius)),
+            SilbertPartner::Side => (radius, mass(radius)),
         };
         self.material
             .impact(effective_radius, effective_mass, speed)
@@ -134,8 +134,10 @@ impl SilbertImpact {
     /// They touch at the start; the partner is at rest at the origin.
     fn scene(&self, velocity: Vector, dt: f64, bench: &Bench<'_>) -> Scene {
         let distance = match self.partner {
-            Partner::Side => 0.0,
-            Partner::Sphere | Partner::FixedSphere => self.radius + self.partner_radius(),
+            SilbertPartner::Side => 0.0,
+            SilbertPartner::Sphere | SilbertPartner::FixedSphere => {
+                self.radius + self.partner_radius()
+            }
         };
         let mut spheres = vec![moving(
             [distance, 0.0, 0.0],
@@ -143,12 +145,12 @@ impl SilbertImpact {
         )];
         let (mut geometry, mut tank) = (None, None);
         match self.partner {
-            Partner::Sphere => {
+            SilbertPartner::Sphere => {
                 let mut partner = moving([0.0; 3], [0.0; 3]);
                 partner.radius = self.partner_radius;
                 spheres.push(partner);
             }
-            Partner::FixedSphere => {
+            SilbertPartner::FixedSphere => {
                 geometry = Some(Geometry::List {
                     walls: vec![FixedSphere {
                         position: [0.0; 3],
@@ -157,7 +159,7 @@ impl SilbertImpact {
                     door: Vec::new(),
                 });
             }
-            Partner::Side => {
+            SilbertPartner::Side => {
                 tank = Some(Tank {
                     width: Some(2.0 * self.radius),
                     ..Tank::default()
@@ -183,9 +185,9 @@ impl SilbertImpact {
         let sphere = particles.fixed;
         let (place, speed) = (position[sphere], velocity[sphere]);
         let other = match self.partner {
-            Partner::Sphere => 1,
-            Partner::FixedSphere => 0,
-            Partner::Side => return (-place.x, speed.x),
+            SilbertPartner::Sphere => 1,
+            SilbertPartner::FixedSphere => 0,
+            SilbertPartner::Side => return (-place.x, speed.x),
         };
         let offset = place - position[other];
         let distance = offset.norm();

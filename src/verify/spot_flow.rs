@@ -1,7 +1,7 @@
 //! Spots rise through spheres on a lattice.
 
 use super::bench::Bench;
-use super::{Family, Measured, VerifyError, named};
+use super::{CaseFamily, MeasuredValues, VerifyError, named};
 use crate::particles::vector::Vector;
 use crate::spot::{Parameters, Relaxation, Schedule, SpotOpening, SpotSimulation};
 use serde::Deserialize;
@@ -39,12 +39,12 @@ const BELOW_FRONT: f64 = 0.85;
 const LAYER: [f64; 2] = [3.0, 5.0];
 const MIDDLE: f64 = 6.0;
 
-impl Family for SpotFlow {
+impl CaseFamily for SpotFlow {
     fn name(&self) -> &'static str {
         "spot-flow"
     }
 
-    fn measure(&self, _: &mut Bench<'_>) -> Result<Measured, VerifyError> {
+    fn measure(&self, _: &mut Bench<'_>) -> Result<MeasuredValues, VerifyError> {
         let spots = |error: &dyn std::fmt::Display| VerifyError::Spots(error.to_string());
         let parameters = self.parameters();
         let mut simulation = SpotSimulation::new(parameters, &self.lattice(), self.seed)

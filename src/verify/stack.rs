@@ -1,7 +1,7 @@
 //! A column of spheres at rest.
 
 use super::bench::{Bench, Material, at, downward, floor, unguarded};
-use super::{Family, Measured, VerifyError, named, numbered};
+use super::{CaseFamily, MeasuredValues, VerifyError, named, numbered};
 use crate::dem::DemSimulation;
 use crate::scene::{DemScene, Effects, Scene};
 use serde::Deserialize;
@@ -24,12 +24,12 @@ pub struct Stack {
     duration: f64,
 }
 
-impl Family for Stack {
+impl CaseFamily for Stack {
     fn name(&self) -> &'static str {
         "stack"
     }
 
-    fn measure(&self, bench: &mut Bench<'_>) -> Result<Measured, VerifyError> {
+    fn measure(&self, bench: &mut Bench<'_>) -> Result<MeasuredValues, VerifyError> {
         let height = |i: usize| (2 * i + 1) as f64 * self.radius;
         let spheres = (0..self.count).map(|i| at([0.0, 0.0, height(i)])).collect();
         let scene = Scene {

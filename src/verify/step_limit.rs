@@ -1,7 +1,7 @@
 //! Limits of the time step, in closed form.
 
 use super::bench::{Bench, Material, moving, unguarded};
-use super::{Family, Measured, VerifyError};
+use super::{CaseFamily, MeasuredValues, VerifyError};
 use crate::dem::timestep;
 use crate::scene::{DemScene, Scene};
 use serde::Deserialize;
@@ -18,12 +18,12 @@ pub struct StepLimit {
     speed: f64,
 }
 
-impl Family for StepLimit {
+impl CaseFamily for StepLimit {
     fn name(&self) -> &'static str {
         "step-limit"
     }
 
-    fn measure(&self, bench: &mut Bench<'_>) -> Result<Measured, VerifyError> {
+    fn measure(&self, bench: &mut Bench<'_>) -> Result<MeasuredValues, VerifyError> {
         let side = |side: f64| {
             let place = [2.0 * side * self.radius, 0.0, 0.0];
             moving(place, [-0.5 * side * self.speed, 0.0, 0.0])

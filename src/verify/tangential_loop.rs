@@ -1,7 +1,7 @@
 //! A sphere is pressed on the floor or on another sphere, and moved back and forth along it.
 
 use super::bench::{AnyMaterial, Bench, at, floor, reduced, unguarded};
-use super::{Family, Measured, VerifyError, named};
+use super::{CaseFamily, MeasuredValues, VerifyError, named};
 use crate::dem::DemSimulation;
 use crate::particles::vector::Vector;
 use crate::scene::{DemScene, Driven, Friction, Scene};
@@ -39,14 +39,14 @@ fn thousands() -> u32 {
 /// Cycles of an oscillation with a changing overlap.
 const CYCLES: u32 = 3;
 
-impl Family for TangentialLoop {
+impl CaseFamily for TangentialLoop {
     fn name(&self) -> &'static str {
         "tangential-loop"
     }
 
     /// Loss and largest force of a cycle at a constant overlap, or the energy gained by any number
     /// of cycles at a changing one.
-    fn measure(&self, bench: &mut Bench<'_>) -> Result<Measured, VerifyError> {
+    fn measure(&self, bench: &mut Bench<'_>) -> Result<MeasuredValues, VerifyError> {
         match self.breathing {
             None => self.cycle_on_the_floor(bench),
             Some(breathing) => {
@@ -83,7 +83,7 @@ impl TangentialLoop {
     }
 
     /// Measures the second cycle: in the first one the contact leaves the curve of first loading.
-    fn cycle_on_the_floor(&self, bench: &mut Bench<'_>) -> Result<Measured, VerifyError> {
+    fn cycle_on_the_floor(&self, bench: &mut Bench<'_>) -> Result<MeasuredValues, VerifyError> {
         let dt = self.dt();
         let depth = self.material.overlap(self.radius, self.normal_force);
         let place = at([0.0, 0.0, self.radius - depth]);

@@ -1,7 +1,7 @@
 //! A sphere at rest on three others in a cylinder.
 
 use super::bench::{Bench, Material, at, downward, unguarded};
-use super::{Family, Measured, VerifyError, named};
+use super::{CaseFamily, MeasuredValues, VerifyError, named};
 use crate::dem::DemSimulation;
 use crate::forces::contact::{HertzLaw, NormalLaw};
 use crate::particles::vector::Vector;
@@ -27,12 +27,12 @@ pub struct Tripod {
     duration: f64,
 }
 
-impl Family for Tripod {
+impl CaseFamily for Tripod {
     fn name(&self) -> &'static str {
         "tripod"
     }
 
-    fn measure(&self, bench: &mut Bench<'_>) -> Result<Measured, VerifyError> {
+    fn measure(&self, bench: &mut Bench<'_>) -> Result<MeasuredValues, VerifyError> {
         let distance = self.spread * self.radius;
         let foot = |i: usize| {
             let angle = 2.0 * PI * i as f64 / 3.0;

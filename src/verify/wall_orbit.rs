@@ -1,7 +1,7 @@
 //! A sphere that rotating air drives along the cylinder.
 
 use super::bench::{Bench, Material, at, unguarded};
-use super::{Family, Measured, VerifyError, named};
+use super::{CaseFamily, MeasuredValues, VerifyError, named};
 use crate::dem::DemSimulation;
 use crate::particles::vector::Vector;
 use crate::scene::{DemScene, Drag, DragForm, DragLaw, Effects, Scene, Swirl, Tank};
@@ -26,12 +26,12 @@ pub struct WallOrbit {
     duration: f64,
 }
 
-impl Family for WallOrbit {
+impl CaseFamily for WallOrbit {
     fn name(&self) -> &'static str {
         "wall-orbit"
     }
 
-    fn measure(&self, bench: &mut Bench<'_>) -> Result<Measured, VerifyError> {
+    fn measure(&self, bench: &mut Bench<'_>) -> Result<MeasuredValues, VerifyError> {
         let scene = Scene {
             tank: Some(Tank {
                 radius: Some(self.tank_radius),

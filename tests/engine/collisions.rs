@@ -350,7 +350,9 @@ fn figure_10_a_dissipating_cradle_is_not_perfect() {
 }
 
 fn tracks(record: &RunRecord) -> String {
-    String::from_utf8(plot::draw_tracks(record).unwrap().to_svg_bytes()).unwrap()
+    let records = plot::RecordSet::of(std::slice::from_ref(record));
+    let svg = plot::draw("tracks", records).unwrap();
+    String::from_utf8(svg.to_svg_bytes()).unwrap()
 }
 
 #[test]

@@ -170,7 +170,7 @@ fn a_step_near_its_limit_is_warned_of() {
         .complains("warning: the time step is 0.")
         .complains("times the limit of")
         .complains("times the advised limit of")
-        .complains("(twelve contacts): a sphere that many others squeeze may gain energy");
+        .complains("(twelve contacts): a sphere squeezed by many others may gain energy");
     let run = place.phase(&["run", "near.toml"]).code(0);
     let lines = run
         .stderr

@@ -2,7 +2,7 @@
 
 use crate::support::Workplace;
 use phase::scene::Integrator;
-use phase::verify::{self, Case, Tolerance};
+use phase::verify::{self, Case, CaseTolerance};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -65,7 +65,7 @@ fn the_table_is_sound() {
         assert!(!case.integrators.is_empty(), "{name} is never run");
         assert!(case.tolerance.limit() <= 0.3, "{name} tolerates anything");
         // A fraction of zero would allow nothing.
-        let relative = matches!(case.tolerance, Tolerance::Relative(_));
+        let relative = matches!(case.tolerance, CaseTolerance::Relative(_));
         let zero = case.expect.values().any(|&value| value == 0.0);
         assert!(!(relative && zero), "{name} needs an absolute tolerance");
     }

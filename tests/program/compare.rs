@@ -87,7 +87,11 @@ fn what_other_programs_write_is_measured_alike() {
     assert_equal(&place, "run.dump", "run.h5");
     // Alone it needs a scene.
     let alone = place.phase(&["compare", "run.dump"]).code(2);
-    assert!(alone.stderr.contains("`--scene`"), "{}", alone.stderr);
+    assert!(
+        alone.stderr.contains("its scene with --scene"),
+        "{}",
+        alone.stderr
+    );
     place
         .phase(&["compare", "run.dump", "--scene", "scene.toml"])
         .code(0);
@@ -104,7 +108,7 @@ fn what_other_programs_write_is_measured_alike() {
     place
         .phase(&["plot", "run.xyz", "--figure", "outflow"])
         .code(2)
-        .complains("`--scene`");
+        .complains("its scene with --scene");
     let plot = [
         "plot",
         "run.xyz",
@@ -163,7 +167,7 @@ fn steps_are_no_times_of_spots() {
     place
         .phase(&["compare", "run.h5", "run.dump"])
         .code(2)
-        .complains("run.dump: it counts steps, and the scene is of spots");
+        .complains("run.dump: it counts steps, but a scene of spots has no time step");
 }
 
 /// Symptom: what a run with a door had been exported to gave another outflow than its record, as
@@ -210,9 +214,9 @@ fn spheres_that_cannot_be_told_apart_are_refused() {
     for (states, reason) in [
         (
             format!("{one}2\nTime=1\nA 0 0 1\nA 0 0 3\n"),
-            "state 2 has another number of spheres",
+            "state 2 and the state before differ in their number",
         ),
-        (format!("{one}{numbered}"), "write an `id` of each sphere"),
+        (format!("{one}{numbered}"), "write an `id` for each sphere"),
         (
             one.to_owned() + "1\nTime=1\nA 50 0 1\n",
             "state 2: sphere 0 is outside the walls of the scene",
@@ -406,7 +410,7 @@ fn a_table_takes_the_place_of_its_records() {
     place.write("other.csv", "a,b\n1,2\n");
     let refused = place.phase(&["compare", "run.h5", "other.csv"]).code(2);
     assert!(
-        refused.stderr.contains("other.csv:1: no table"),
+        refused.stderr.contains("other.csv:1: not a table"),
         "{}",
         refused.stderr
     );
@@ -438,11 +442,11 @@ fn a_table_has_one_number_for_each_name() {
     for (row, reason) in [
         (
             "outflow,1/s,a,5,1",
-            "again.csv:3: a second `outflow` of `a`",
+            "again.csv:3: duplicate `outflow` of `a`",
         ),
         (
             "outflow,1/s,b,4,-1",
-            "again.csv:3: a half width is not negative",
+            "again.csv:3: a half width cannot be negative",
         ),
         (
             "outflow,1/s,b,1e400,1",

@@ -3,7 +3,7 @@
 use crate::made_up::{self, axis, source};
 use crate::support::texts;
 use phase::classify::{DRAINAGE, Label, LabelTable, Verdict};
-use phase::plot::{self, FittedLine, PlotError, Source, fitted_lines};
+use phase::plot::{self, FittedLaw, Source, fitted_lines};
 use phase::record::Program;
 use phase::scene::Scene;
 use phase::sweep::Sweep;
@@ -44,7 +44,7 @@ fn with<T>(sweep: &Sweep, table: &LabelTable, action: impl Fn(&Source<'_>) -> T)
 }
 
 /// The only line that is fitted, and the text of the figure.
-fn fitted((sweep, table): &(Sweep, LabelTable)) -> (FittedLine, String) {
+fn fitted((sweep, table): &(Sweep, LabelTable)) -> (FittedLaw, String) {
     with(sweep, table, |source| {
         let mut lines = fitted_lines(source).unwrap();
         let svg = plot::draw("beverloo", source).unwrap();
@@ -83,11 +83,7 @@ fn the_law_needs_an_axis_of_the_opening() {
     let refused = with(&sweep, &table, |source| {
         plot::draw("beverloo", source).err()
     });
-    assert!(matches!(refused, Some(PlotError::NeedsAxis { .. })));
-    assert!(
-        refused
-            .unwrap()
-            .to_string()
-            .contains("`tank.orifice_radius`")
-    );
+    let message = refused.unwrap().to_string();
+    let expected = "the figure `beverloo` needs a sweep over `tank.orifice_radius`";
+    assert_eq!(message, expected);
 }

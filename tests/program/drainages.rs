@@ -140,14 +140,14 @@ fn options_that_nothing_reads_are_refused() {
         (
             &["plot", "run.h5", "--figure", "outflow"],
             of_scene,
-            "there is none",
+            "none is given",
         ),
         (
             &["plot", folder, "--out", "."],
             of_scene,
             "a results folder has its own scene",
         ),
-        (&["compare", "run.h5"], of_scene, "there is none"),
+        (&["compare", "run.h5"], of_scene, "none is given"),
         (
             &["compare", folder, folder],
             of_scene,

@@ -2,7 +2,7 @@
 //! through the built program.
 
 use crate::support::{Workplace, drainage_file};
-use phase::compare::{Drainage, outflow};
+use phase::compare::{MeasuredDrainage, outflow};
 use phase::store::{content_digest, read_record};
 use serde_json::Value;
 use std::ops::Range;
@@ -28,7 +28,7 @@ fn a_silo_of_discrete_elements_opens_and_drains() {
     let run = place.phase(&["run", "elements.toml", "--out", "run.h5", "--verbose"]);
     run.code(0);
     let record = read_record(place.path("run.h5").as_ref()).unwrap();
-    let drainage = Drainage::new(&record, None).unwrap();
+    let drainage = MeasuredDrainage::new(&record, None).unwrap();
     assert_eq!(drainage.duration(), 5.0);
     let [time, left] = drainage.left();
     assert_eq!((time[0], left[0]), (0.0, 0.0));
@@ -66,7 +66,7 @@ fn a_silo_of_discrete_elements_opens_and_drains() {
     place
         .phase(&["view", "run.h5", "--time", "60", "--since-opening"])
         .code(2)
-        .complains("no state at t = 60 τ: the record holds them from -1 to 5 τ");
+        .complains("no state at t = 60 τ: the record holds states from -1 to 5 τ");
     let drawn = place.phase(&["plot", "run.h5", "--figure", "outflow,velocity-correlation"]);
     drawn.code(0);
 }
@@ -143,7 +143,7 @@ fn fitted_spots_drain_two_thirds_as_fast() {
         .code(0);
     let rate = |name: &str| {
         let record = read_record(place.path(name).as_ref()).unwrap();
-        outflow(&Drainage::new(&record, Some([4.0, 14.0])).unwrap())
+        outflow(&MeasuredDrainage::new(&record, Some([4.0, 14.0])).unwrap())
             .unwrap()
             .value
     };

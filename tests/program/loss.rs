@@ -133,7 +133,7 @@ fn a_seed_counts_once() {
     place
         .phase(&["sweep", "tiny.toml", "-s", "1", "-s", "1"])
         .code(2)
-        .complains("--seed 1 is there twice");
+        .complains("duplicate --seed 1");
 }
 
 #[test]

@@ -73,8 +73,6 @@ pub(crate) fn source<'a>(
         record: &|id| panic!("a figure of a table read the record {id}"),
         points: &[],
         times: None,
-        captions: &[],
-        data: &[],
         program,
     }
 }

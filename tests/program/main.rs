@@ -23,6 +23,7 @@ mod limits;
 mod loss;
 mod made_up;
 mod model;
+mod names;
 mod packing_fraction;
 mod plot;
 mod published;

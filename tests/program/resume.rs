@@ -324,6 +324,6 @@ fn records_of_another_build_are_told_of() {
     let answer = sweep(&place, &TinySweep::default()).code(0);
     let version = env!("CARGO_PKG_VERSION");
     answer.complains(&format!(
-        "2 records were made by version {version} (commit abc123); --force makes them anew"
+        "2 records were made by version {version} (commit abc123); --force runs them again"
     ));
 }

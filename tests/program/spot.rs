@@ -1,7 +1,7 @@
 //! Drainage by spots, through the built program.
 
 use crate::support::{Workplace, drainage_file};
-use phase::compare::{Drainage, mixing_of_kinematic_flow, mixing_of_voids};
+use phase::compare::{MeasuredDrainage, mixing_of_kinematic_flow, mixing_of_voids};
 use phase::measure::{CellGrid, Centres};
 use phase::record::{Outcome, RunRecord};
 use phase::store::{content_digest, read_record};
@@ -477,7 +477,7 @@ fn positions_from_a_file_drain_and_are_compared_with_simpler_models() {
     for name in ["voids on a lattice", "kinematic flow", "over"] {
         assert!(svg.contains(name), "{name}: {svg}");
     }
-    let drainage = Drainage::new(&record, None).unwrap();
+    let drainage = MeasuredDrainage::new(&record, None).unwrap();
     let voids = mixing_of_voids(&drainage).unwrap();
     let flow = mixing_of_kinematic_flow(&drainage).unwrap();
     // They start on one lattice, and layers bend in both.

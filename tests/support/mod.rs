@@ -306,6 +306,8 @@ pub(crate) fn signal(child: &Child, name: &str) {
         "HUP" => Signal::HUP,
         "INT" => Signal::INT,
         "TERM" => Signal::TERM,
+        "STOP" => Signal::STOP,
+        "CONT" => Signal::CONT,
         _ => panic!("no signal {name}"),
     };
     kill_process(Pid::from_child(child), signal).unwrap();

@@ -2,7 +2,7 @@
 
 use super::run::DrainageRun;
 use crate::classify::measure::{measured, measures};
-use crate::compare::{Drainage, badness_of, mixing, packing_fraction};
+use crate::compare::{MeasuredDrainage, badness_of, mixing, packing_fraction};
 use crate::measure::{Centres, surface_angle};
 use crate::record::RunRecord;
 
@@ -33,7 +33,7 @@ measures! {
 
 impl DrainageOrder {
     pub(super) fn measure(record: &RunRecord, run: &DrainageRun<'_>, is_blocked: bool) -> Self {
-        let drainage = Drainage::new(record, None).ok();
+        let drainage = MeasuredDrainage::new(record, None).ok();
         let end = run.snapshots.last().map(Centres::of);
         Self {
             start_packing_fraction: drainage

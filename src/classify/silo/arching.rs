@@ -73,7 +73,8 @@ impl Sieve for ArchingSieve {
 }
 
 impl ArchingSieve {
-    /// Whether the outflow has stopped, and no grain is over the opening: what could leave has left.
+    /// Whether what could leave has left: the outflow has stopped, and no grain is over the
+    /// opening.
     pub(super) fn is_drained(&self, run: &Outflow<'_>) -> bool {
         let pause = self.pause(run);
         let has_stopped = pause.is_some_and(|pause| self.margin(run, pause) >= 0.0);

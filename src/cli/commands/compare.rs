@@ -11,7 +11,7 @@ use crate::cli::folders;
 use crate::cli::options::Measured;
 use crate::cli::runs::check_labels;
 use inputs::Column;
-use phase::compare::{Row, are_of_one_run};
+use phase::compare::{ComparisonRow, are_of_one_run};
 use phase::scene::Units;
 use phase::statistics::Estimate;
 use serde::Serialize;
@@ -24,9 +24,9 @@ use std::path::PathBuf;
 /// and silos: the label and the measures of `labels.csv`. For two records also the differences.
 ///
 /// Files of other programs can be compared too: dumps of LAMMPS, extended XYZ, and VTK files
-/// through the collection (`.pvd`) or series (`.series`) that holds their times. What they lack is
-/// taken from the scene of the first record, or from `--scene`. A table that this command wrote can
-/// be used instead of its records.
+/// through the collection (`.pvd`) that holds their times. What they lack is taken from the scene
+/// of the first record, or from `--scene`. A table that this command wrote can be used instead of
+/// its records.
 ///
 /// Two results folders are compared by pairs of runs with the same point and seed: the share with
 /// equal labels, and the mean differences of measures.
@@ -136,7 +136,7 @@ fn letter(index: usize) -> String {
 }
 
 /// The rows as lines of text, in columns; their scenes are in these units.
-fn lines(rows: &[Row], records: usize, units: Units, is_of_one_run: bool) -> Vec<String> {
+fn lines(rows: &[ComparisonRow], records: usize, units: Units, is_of_one_run: bool) -> Vec<String> {
     let mut head = vec![String::new()];
     head.extend((0..records).map(letter));
     head.extend((records == 2).then(|| "B - A".to_owned()));
@@ -177,7 +177,7 @@ struct Entry {
 }
 
 impl Entry {
-    fn new(row: &Row, is_of_one_run: bool) -> Self {
+    fn new(row: &ComparisonRow, is_of_one_run: bool) -> Self {
         let finite = |value: f64| Some(value).filter(|it| it.is_finite());
         let values = row.values.iter();
         let difference = row.difference(is_of_one_run);

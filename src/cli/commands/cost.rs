@@ -4,7 +4,7 @@ use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::values;
 use crate::cli::{format, job, kind};
-use phase::cost::{PartCost, SweepCost, Tried};
+use phase::cost::{PartCost, SweepCost, TriedJob};
 use phase::grid::{Axis, describe};
 use phase::record::Outcome;
 use phase::scene::FileKind;
@@ -64,7 +64,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
 }
 
 /// How much of a job was run, and what it represents.
-fn describe_tried(tried: &Tried<'_>, axes: &[Axis], jobs: usize, unit: &str) -> String {
+fn describe_tried(tried: &TriedJob<'_>, axes: &[Axis], jobs: usize, unit: &str) -> String {
     let cost = &tried.cost;
     let extent = match (&cost.record.outcome, cost.whole) {
         (Outcome::Unstable(instability), _) => {

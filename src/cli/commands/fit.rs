@@ -5,7 +5,7 @@ use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::folders;
 use crate::cli::options::Window;
-use phase::compare::{Drainage, SpotFit};
+use phase::compare::{MeasuredDrainage, SpotFit};
 use phase::scene::{Scene, Units};
 use phase::statistics::Estimate;
 use phase::store;
@@ -116,7 +116,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     let path = arguments.record.display();
     let record = store::read_record(&arguments.record)?;
     let lacks = |needs: &str| Failure::refused(format_args!("{path}: a fit needs {needs}"));
-    let drainage = Drainage::new(&record, arguments.window.times).map_err(lacks)?;
+    let drainage = MeasuredDrainage::new(&record, arguments.window.times).map_err(lacks)?;
     let fit = SpotFit::of(&drainage).map_err(lacks)?;
     let head = ["key", "symbol", "fit", "paper", "from"].map(str::to_owned);
     let rows = PARAMETERS.iter().map(|it| row(it, &fit, &record.scene));
@@ -184,7 +184,7 @@ fn rounded(value: f64) -> f64 {
 const HEAD: &str = "# Parameters of the spot model, fitted by `phase fit`.";
 
 /// The scene of the same drainage by spots.
-fn scene(drainage: &Drainage<'_>, fit: &SpotFit) -> String {
+fn scene(drainage: &MeasuredDrainage<'_>, fit: &SpotFit) -> String {
     let scene = &drainage.record.scene;
     let tank = scene.tank.clone().unwrap_or_default();
     let opening = match (tank.orifice_radius, tank.slit_width) {

@@ -10,7 +10,7 @@ use crate::cli::folders::{self, Entry};
 use crate::cli::options::Measured;
 use crate::cli::runs::check_labels;
 use folder::{FitEntry, FolderAnswer};
-use phase::plot::{self, About};
+use phase::plot::{self, Figure};
 use phase::sweep::{Folder, Selection, parse_point};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -155,18 +155,27 @@ impl Answer {
     /// Prints name and description of every figure, or of those that can be drawn of what is at
     /// `dir`.
     fn list(&mut self, dir: Option<&Path>, console: &Console) -> Result<(), Failure> {
-        let (known, of_record) = match dir {
-            None => (plot::figures(), records::of_one()),
-            Some(path) if path.is_file() => (Vec::new(), records::list(path)?),
-            Some(dir) => (self.drawable(dir, console)?, Vec::new()),
+        let known: Vec<&Figure> = match dir {
+            None => {
+                let figures = plot::figures().iter();
+                figures
+                    .filter(|it| it.is_of_sweep() || it.is_of_one_record())
+                    .collect()
+            }
+            Some(path) if path.is_file() => records::drawable(path)?,
+            Some(dir) => self.drawable(dir, console)?,
         };
+        let of_record = dir.is_some_and(Path::is_file);
         let figures = known.into_iter().map(|figure| Listed {
             name: figure.name,
-            description: figure.description,
-            default_runs: figure.default_runs,
-            families: figure.families.iter().map(|it| it.name).collect(),
+            description: figure.description.clone(),
+            default_runs: figure.default_runs().filter(|_| !of_record),
+            families: match of_record {
+                true => Vec::new(),
+                false => figure.families.iter().map(|it| it.name).collect(),
+            },
         });
-        self.figures = figures.chain(of_record).collect();
+        self.figures = figures.collect();
         for figure in &self.figures {
             figure.print(dir.is_none(), console);
         }
@@ -174,11 +183,9 @@ impl Answer {
     }
 
     /// The figures that can be drawn of the results folders at `dir`: a try succeeds.
-    fn drawable(&mut self, dir: &Path, console: &Console) -> Result<Vec<About>, Failure> {
-        let mut is_drawn: Vec<(About, bool)> = plot::figures()
-            .into_iter()
-            .map(|figure| (figure, false))
-            .collect();
+    fn drawable(&mut self, dir: &Path, console: &Console) -> Result<Vec<&'static Figure>, Failure> {
+        let of_sweeps = plot::figures().iter().filter(|figure| figure.is_of_sweep());
+        let mut is_drawn: Vec<(&Figure, bool)> = of_sweeps.map(|figure| (figure, false)).collect();
         let found = Folder::find(dir)?;
         self.folders = folders::go_through(dir, found, console, |folder| {
             let sweep = folder.read_sweep()?;
@@ -200,17 +207,22 @@ impl Answer {
         arguments: &Arguments,
         console: &Console,
     ) -> Result<(), Failure> {
-        let is_known = |name: &String| plot::figures().iter().any(|known| known.name == name);
-        if let Some(name) = arguments.figure.iter().find(|name| !is_known(name)) {
-            if records::OF_ONE.iter().any(|known| known.name == *name) {
-                return Err(Failure::refused(format_args!(
-                    "`{name}` is drawn from the record of one run; give its .h5 file instead of {}",
-                    dir.display()
-                )));
+        for name in &arguments.figure {
+            match plot::figures().iter().find(|known| known.name == name) {
+                Some(figure) if figure.is_of_sweep() => {}
+                Some(figure) if figure.is_of_one_record() => {
+                    return Err(Failure::refused(format_args!(
+                        "`{name}` is drawn from the record of one run; give its .h5 file instead \
+                         of {}",
+                        dir.display()
+                    )));
+                }
+                _ => {
+                    return Err(Failure::refused(format_args!(
+                        "there is no figure `{name}`; `phase plot --list` lists all figures"
+                    )));
+                }
             }
-            return Err(Failure::refused(format_args!(
-                "there is no figure `{name}`; `phase plot --list` lists all figures"
-            )));
         }
         let points = arguments.points.iter().map(|point| parse_point(point));
         let points: Vec<Selection> = points.collect::<Result<_, _>>()?;

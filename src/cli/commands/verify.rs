@@ -6,12 +6,13 @@ use crate::cli::figures;
 use crate::cli::folders::ANOTHER_FOLDER;
 use crate::cli::options::Workers;
 use crate::cli::{folders, format};
-use phase::plot::verification::{self, CaseError};
+use phase::plot::verification::CaseError;
+use phase::plot::{self, StudyResult};
 use phase::record::Program;
 use phase::scene::Integrator;
 use phase::store;
 use phase::sweep::work;
-use phase::verify::{self, Case, Outcome, VerifyError};
+use phase::verify::{self, Case, CaseOutcome, VerifyError};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
@@ -186,7 +187,7 @@ fn list(cases: &[&Case], console: &Console) -> Result<Exit, Failure> {
 }
 
 /// A case with an integrator in one line, and its quantities in further ones.
-fn line(case: &Case, integrator: Integrator, outcome: &Result<Outcome, VerifyError>) -> String {
+fn line(case: &Case, integrator: Integrator, outcome: &Result<CaseOutcome, VerifyError>) -> String {
     let head = format!("{}: {}", case.setup.name(), case.name);
     let with_integrator = format!("{head} ({})", integrator.name());
     let outcome = match outcome {
@@ -210,7 +211,7 @@ fn line(case: &Case, integrator: Integrator, outcome: &Result<Outcome, VerifyErr
     text
 }
 
-fn error_of(case: &Case, integrator: Integrator, outcome: &Outcome) -> CaseError {
+fn error_of(case: &Case, integrator: Integrator, outcome: &CaseOutcome) -> CaseError {
     let ratios = outcome.checks.iter().map(|check| check.error / check.limit);
     CaseError {
         name: format!("{}: {}", case.setup.name(), case.name),
@@ -222,7 +223,7 @@ fn error_of(case: &Case, integrator: Integrator, outcome: &Outcome) -> CaseError
 fn rows_of(
     case: &'static Case,
     integrator: Integrator,
-    outcome: &Outcome,
+    outcome: &CaseOutcome,
 ) -> impl Iterator<Item = Row> {
     outcome.checks.iter().map(move |check| Row {
         family: case.setup.name(),
@@ -249,6 +250,6 @@ fn write(
     let place = |end: &str| folder.join(format!("verification.{end}"));
     store::write_rows(rows, &place("csv"))?;
     console.file(&place("csv"));
-    let figure = verification::draw(errors, &Program::current())?;
-    figures::write(&figure, place, console)
+    let study = StudyResult::Verification(errors, &Program::current());
+    figures::write(&plot::draw("verification", study)?, place, console)
 }

@@ -4,7 +4,7 @@
 use crate::plot::PlotError;
 use crate::plot::color_bar::ColorBar;
 use crate::plot::diagram::{Diagram, Look};
-use crate::plot::grid::{Grid, GridAxis, Panel};
+use crate::plot::grid::{GridAxis, GridPanel, PanelGrid};
 use crate::plot::style::Fill;
 use crate::plot::svg::Svg;
 use crate::record::Program;
@@ -32,10 +32,10 @@ pub(super) fn draw(
     let x = axis(0);
     let y = (sweep.axes.len() > 1).then(|| axis(1));
     let shown = shown(evaluation);
-    let grid: Grid<f64> = Grid {
+    let grid: PanelGrid<f64> = PanelGrid {
         panels: shown
             .iter()
-            .map(|(outcome, points)| Panel {
+            .map(|(outcome, points)| GridPanel {
                 head: Some(outcome.name.clone()),
                 column: None,
                 row: None,
@@ -53,9 +53,7 @@ pub(super) fn draw(
         .flat_map(|panel| panel.cells.iter().flatten().copied());
     let bar = ColorBar::new(values, true, "labels changed".to_owned());
     let Some(bar) = bar else {
-        return Err(PlotError::NoMeasures {
-            figure: "label-changes",
-        });
+        return Err(PlotError::no_measures("label-changes"));
     };
     let diagram = Diagram {
         name: "label-changes",

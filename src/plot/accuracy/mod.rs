@@ -4,8 +4,8 @@ mod changes;
 mod step_time;
 mod work_precision;
 
-use super::PlotError;
 use super::svg::Svg;
+use super::{PlotError, PlotErrorKind};
 use crate::record::Program;
 use crate::study::accuracy::{AccuracyStudy, Evaluation};
 use crate::study::comparison::{Comparison, RunRow};
@@ -46,7 +46,9 @@ pub fn draw_all(
             (step_time_of(x), drawn)
         }));
     }
-    figures.retain(|(_, figure)| !matches!(figure, Err(PlotError::NoMeasures { .. })));
+    figures.retain(
+        |(_, figure)| !matches!(figure, Err(error) if error.kind() == PlotErrorKind::Nothing),
+    );
     figures
 }
 

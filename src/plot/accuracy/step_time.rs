@@ -4,7 +4,7 @@
 use super::color;
 use crate::grid::describe_point;
 use crate::plot::PlotError;
-use crate::plot::chart::{self, Chart, Line, Panel};
+use crate::plot::chart::{self, Chart, ChartLine, ChartPanel};
 use crate::plot::style::px;
 use crate::plot::svg::Svg;
 use crate::record::Program;
@@ -38,11 +38,11 @@ pub(super) fn draw(
         None => against_ladder(x, comparison, rows),
     };
     let count = times.len();
-    let line = |(place, it): (usize, &Times)| Line {
+    let line = |(place, it): (usize, &Times)| ChartLine {
         points: it.points.clone(),
         color: color(place, count),
     };
-    let lines: Vec<Line> = times.iter().enumerate().map(line).collect();
+    let lines: Vec<ChartLine> = times.iter().enumerate().map(line).collect();
     let legend = lines.iter().zip(&times);
     let legend = legend.map(|(line, it)| (line.color, it.name.clone()));
     let legend = legend.collect();
@@ -51,7 +51,7 @@ pub(super) fn draw(
         .flat_map(|line| &line.points)
         .map(|point| point.0);
     let largest = ends.fold(0.0, f64::max);
-    let mut panels = vec![Panel::new(Vec::new(), (0.0, largest), lines).down_to_zero()];
+    let mut panels = vec![ChartPanel::new(Vec::new(), (0.0, largest), lines).down_to_zero()];
     let unit = chart::scaled("s", &mut panels);
     let x_label = match sweep.scene.notation(&key) {
         Some(it) if it.unit.is_empty() => format!("${}$", it.symbol),

@@ -2,11 +2,11 @@
 
 use super::color;
 use crate::plot::axes::Plot;
-use crate::plot::legend::{Entry, Key};
-use crate::plot::page::{Frame, Page, Plan};
-use crate::plot::scale::Span;
-use crate::plot::spacing::Spacing;
-use crate::plot::style::{self, Drawn, Sheet, px};
+use crate::plot::legend::{LegendEntry, LegendKey};
+use crate::plot::page::{FigurePage, PagePlan, PanelFrame};
+use crate::plot::scale::AxisSpan;
+use crate::plot::spacing::AxisSpacing;
+use crate::plot::style::{self, Drawn, FigureSheet, px};
 use crate::plot::svg::Svg;
 use crate::plot::{PlotError, palette};
 use crate::record::Program;
@@ -39,9 +39,7 @@ pub(super) fn draw(
 ) -> Result<Svg, PlotError> {
     let dots = dots(evaluation);
     if dots.is_empty() {
-        return Err(PlotError::NoMeasures {
-            figure: "work-precision",
-        });
+        return Err(PlotError::no_measures("work-precision"));
     }
     let mut methods: Vec<&str> = Vec::new();
     for dot in dots.iter().filter(|dot| !dot.is_base) {
@@ -52,9 +50,9 @@ pub(super) fn draw(
     let floor = floor(evaluation);
     let (x, y) = spans(evaluation, &dots, floor);
     let notes = notes(evaluation);
-    let page = Page::new(Plan {
+    let page = FigurePage::new(PagePlan {
         title: study.title.as_deref(),
-        frames: vec![Frame {
+        frames: vec![PanelFrame {
             head: Vec::new(),
             x: x.clone(),
             y: y.clone(),
@@ -67,7 +65,7 @@ pub(super) fn draw(
         ],
         legend: legend(evaluation, &methods, floor),
         notes: &notes,
-        ..Plan::default()
+        ..PagePlan::default()
     });
     let body = page.draw(|sheet| {
         let axes = page.axes(sheet, 0)?;
@@ -153,17 +151,21 @@ fn allowed(evaluation: &Evaluation, floor: Option<Interval>) -> f64 {
     }
 }
 
-fn spans(evaluation: &Evaluation, dots: &[Dot<'_>], floor: Option<Interval>) -> (Span, Span) {
+fn spans(
+    evaluation: &Evaluation,
+    dots: &[Dot<'_>],
+    floor: Option<Interval>,
+) -> (AxisSpan, AxisSpan) {
     let logarithmic = |values: &mut dyn Iterator<Item = f64>| {
         let positive = values.filter(|value| *value > 0.0);
         let (low, high) = positive.fold((f64::INFINITY, 0.0_f64), |(low, high), value| {
             (low.min(value), high.max(value))
         });
-        Span {
+        AxisSpan {
             low: low / BEYOND,
             high: high * BEYOND,
-            spacing: Spacing::Logarithmic,
-            ..Span::default()
+            spacing: AxisSpacing::Logarithmic,
+            ..AxisSpan::default()
         }
     };
     let x = logarithmic(&mut dots.iter().map(|dot| dot.at.0));
@@ -189,7 +191,7 @@ fn error_label(evaluation: &Evaluation) -> String {
     }
 }
 
-fn legend(evaluation: &Evaluation, methods: &[&str], floor: Option<Interval>) -> Vec<Entry> {
+fn legend(evaluation: &Evaluation, methods: &[&str], floor: Option<Interval>) -> Vec<LegendEntry> {
     let mut entries = Vec::new();
     for (index, method) in methods.iter().enumerate() {
         let mut orders = evaluation.orders.iter();
@@ -201,13 +203,19 @@ fn legend(evaluation: &Evaluation, methods: &[&str], floor: Option<Interval>) ->
             },
             None => (*method).to_owned(),
         };
-        entries.push(Entry::new(Key::Line(color(index, methods.len())), &text));
+        entries.push(LegendEntry::new(
+            LegendKey::Line(color(index, methods.len())),
+            &text,
+        ));
     }
-    entries.push(Entry::new(Key::Ring(BLACK), "the scene as it is"));
-    entries.push(Entry::new(Key::Dashes, "allowed"));
+    entries.push(LegendEntry::new(
+        LegendKey::Ring(BLACK),
+        "the scene as it is",
+    ));
+    entries.push(LegendEntry::new(LegendKey::Dashes, "allowed"));
     if floor.is_some() {
         let fill = style::Fill::Color(palette::lightened(palette::GUIDE, 0.65));
-        entries.push(Entry::new(Key::Fill(fill), "noise of seeds"));
+        entries.push(LegendEntry::new(LegendKey::Fill(fill), "noise of seeds"));
     }
     entries
 }
@@ -224,7 +232,7 @@ fn notes(evaluation: &Evaluation) -> Vec<String> {
 }
 
 fn draw_method(
-    sheet: &Sheet<'_>,
+    sheet: &FigureSheet<'_>,
     plot: &Plot<'_>,
     dots: &[Dot<'_>],
     method: &str,

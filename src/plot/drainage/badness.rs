@@ -1,7 +1,7 @@
 //! Overlaps against processor time (Rycroft, Wong and Bazant, 2010, figures 9 and 12).
 
-use super::overlay::{self, Frame, Scale};
-use super::{Curve, Drainage, Lines, Overlay};
+use super::overlay::{self, OverlayPanel, PanelScale};
+use super::{MeasuredDrainage, Overlay, RunCurve, RunLines};
 use crate::compare::badness_of;
 use crate::plot::numbers;
 
@@ -10,10 +10,10 @@ pub(super) static BADNESS: Overlay = Overlay {
     name: "badness",
     description: "overlaps of the spheres against processor time, one point per run",
     labels: ["processor time of the run (s)", "packing badness $B$"],
-    panels: &[Frame {
+    panels: &[OverlayPanel {
         head: "",
         x: None,
-        y: Scale::Decades,
+        y: PanelScale::Decades,
     }],
     note: "Sum of overlaps over diameters, of pairs, per sphere in the middle of the lower half. \
            Bars: 95 % over ten states.",
@@ -21,11 +21,11 @@ pub(super) static BADNESS: Overlay = Overlay {
     guides: overlay::none,
 };
 
-fn lines(drainage: &Drainage<'_>) -> Lines {
+fn lines(drainage: &MeasuredDrainage<'_>) -> RunLines {
     let seconds = drainage.record.cpu_seconds;
     // Files of other programs do not say what their runs took.
     let badness = badness_of(drainage).filter(|_| seconds.is_finite());
-    let curve = badness.map(|badness| Curve {
+    let curve = badness.map(|badness| RunCurve {
         points: vec![(seconds, badness.value)],
         half_widths: vec![badness.half_width],
     });
@@ -33,7 +33,7 @@ fn lines(drainage: &Drainage<'_>) -> Lines {
         let [seconds, badness] = [it.points[0].0, it.points[0].1].map(|it| numbers::rounded(it, 3));
         format!("{seconds} s, $B$ = {badness}")
     });
-    Lines {
+    RunLines {
         curves: vec![curve.unwrap_or_default()],
         word,
     }

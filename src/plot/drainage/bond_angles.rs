@@ -1,7 +1,7 @@
 //! The distribution of angles between bonds.
 
-use super::overlay::{self, Frame, Scale};
-use super::{Curve, Drainage, Lines, Overlay};
+use super::overlay::{self, OverlayPanel, PanelScale};
+use super::{MeasuredDrainage, Overlay, RunCurve, RunLines};
 use crate::measure::{BondAngles, Centres};
 use std::f64::consts::PI;
 
@@ -10,10 +10,10 @@ pub(super) static BOND_ANGLES: Overlay = Overlay {
     name: "bond-angles",
     description: "distribution of the angles between neighbours in the middle",
     labels: ["angle $θ$ (°)", "$g_3$($θ$) (1/rad)"],
-    panels: &[Frame {
+    panels: &[OverlayPanel {
         head: "",
         x: Some((0.0, 180.0)),
-        y: Scale::FromZero,
+        y: PanelScale::FromZero,
     }],
     note: "Angles at a sphere between two neighbours nearer than 1.3 diameters. Region as of the \
            radial distribution.",
@@ -26,7 +26,7 @@ const CUTOFF: f64 = 1.3;
 /// Bins of two degrees.
 const BINS: usize = 90;
 
-fn lines(drainage: &Drainage<'_>) -> Lines {
+fn lines(drainage: &MeasuredDrainage<'_>) -> RunLines {
     let region = drainage.filled_box.middle();
     let mut angles = BondAngles::new(CUTOFF * drainage.filled_box.diameter, BINS);
     for state in drainage.flow() {
@@ -34,8 +34,8 @@ fn lines(drainage: &Drainage<'_>) -> Lines {
     }
     let values = angles.values().into_iter();
     let points = values.map(|[angle, density]| (angle * 180.0 / PI, density));
-    Lines {
-        curves: vec![Curve::through(points.collect())],
+    RunLines {
+        curves: vec![RunCurve::through(points.collect())],
         word: None,
     }
 }

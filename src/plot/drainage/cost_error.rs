@@ -1,85 +1,75 @@
-//! Error against cost: how far the measures of each drainage are from those of the first, over the
+//! Error against cost: how much the measures of each drainage differ from the first one's, over the
 //! processor time that it takes.
 
 use super::overlay::{GUIDES, color};
-use super::{Drainage, each};
-use crate::classify::{DRAINAGE, Family};
-use crate::compare::{QUANTITIES, Quantity};
-use crate::plot::chart::{self, Bar, Chart, Line, Panel};
+use super::{MeasuredDrainage, each, of_drainages};
+use crate::compare::{DrainageQuantity, QUANTITIES};
+use crate::plot::chart::{self, Bar, Chart, ChartLine, ChartPanel};
 use crate::plot::page::columns;
+use crate::plot::runs::Runs;
 use crate::plot::style::px;
 use crate::plot::svg::Svg;
 use crate::plot::ticks::Ticks;
-use crate::plot::{Figure, PlotError, Source, numbers, palette};
+use crate::plot::{Figure, PlotError, numbers, palette};
 use crate::scene::Units;
 use crate::statistics::Estimate;
 use plotters::style::RGBColor;
 
-/// Error against cost.
-pub(super) struct CostError;
+/// Name of the figure.
+const NAME: &str = "cost-error";
 
 /// Room beyond the data, as a factor.
 const BEYOND: f64 = 1.5;
 /// Colour of the line at the cost of the reference.
 const COST: RGBColor = GUIDES[0];
 
-impl Figure for CostError {
-    fn name(&self) -> &'static str {
-        "cost-error"
-    }
+pub(super) fn figure() -> Figure {
+    of_drainages(
+        NAME,
+        "how far measures are from those of the first run, against processor time",
+        false,
+        draw,
+    )
+}
 
-    fn description(&self) -> String {
-        "how far measures are from those of the first run, against processor time".to_owned()
-    }
-
-    fn default_runs(&self) -> Option<&'static str> {
-        Some("a typical run of every state")
-    }
-
-    fn families(&self) -> Vec<&'static Family> {
-        vec![&DRAINAGE]
-    }
-
-    fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
-        let mut units = Units::Si;
-        let (common, measured) = each(source, self.name(), |place, drainage| {
-            units = drainage.units();
-            Measured::of(place, drainage)
-        })?;
-        let (reference, others) = match measured.split_first() {
-            Some((reference, others)) if !others.is_empty() => (reference, others),
-            _ => {
-                return Err(PlotError::Scene {
-                    figure: self.name(),
-                    needs: "two runs or more, the first of which is the reference",
-                });
-            }
-        };
-        let figure = self.name();
-        let panels = panels(reference, others).ok_or(PlotError::NoMeasures { figure })?;
-        let time = units.of_time();
-        Chart {
-            name: self.name(),
-            common,
-            columns: columns(panels.len()),
-            height: px(170),
-            panels,
-            x_label: format!("processor time (s) per {time} of the run"),
-            y_label: "difference from the reference, over its value".to_owned(),
-            legend: legend(reference, others),
-            notes: vec![
-                "Bars: 95 % over ten states or blocks of time, of both runs; where nothing tells \
-                 the scatter, there is none. A difference below the interval of the reference \
-                 cannot be told."
-                    .to_owned(),
-            ],
+fn draw(runs: &Runs<'_>) -> Result<Svg, PlotError> {
+    let mut units = Units::Si;
+    let measured = each(runs, NAME, |place, drainage| {
+        units = drainage.units();
+        MeasuredRun::of(place, drainage)
+    })?;
+    let (reference, others) = match measured.split_first() {
+        Some((reference, others)) if !others.is_empty() => (reference, others),
+        _ => {
+            return Err(PlotError::needs(
+                NAME,
+                "two runs or more, the first of which is the reference",
+            ));
         }
-        .draw(source)
+    };
+    let panels = panels(reference, others).ok_or_else(|| PlotError::no_measures(NAME))?;
+    let time = units.of_time();
+    Chart {
+        name: NAME,
+        common: runs.common.clone(),
+        columns: columns(panels.len()),
+        height: px(170),
+        panels,
+        x_label: format!("processor time (s) per {time} of the run"),
+        y_label: "difference from the reference, over its value".to_owned(),
+        legend: legend(reference, others),
+        notes: vec![
+            "Bars: 95 % over ten states or blocks of time, of both runs; where nothing tells \
+             the scatter, there is none. A difference below the interval of the reference \
+             cannot be told."
+                .to_owned(),
+        ],
     }
+    .draw(&runs.origin)
 }
 
 /// What a run costs, and its values of the quantities that are shown.
-struct Measured {
+struct MeasuredRun {
     /// Its name in the legend.
     name: String,
     /// Processor time (s) per second of the run.
@@ -87,8 +77,8 @@ struct Measured {
     values: Vec<Option<Estimate>>,
 }
 
-impl Measured {
-    fn of(place: Vec<String>, drainage: &Drainage<'_>) -> Self {
+impl MeasuredRun {
+    fn of(place: Vec<String>, drainage: &MeasuredDrainage<'_>) -> Self {
         let end = drainage.states().last().map_or(f64::NAN, |it| it.time);
         Self {
             name: place.join(", "),
@@ -98,12 +88,12 @@ impl Measured {
     }
 }
 
-fn shown() -> impl Iterator<Item = &'static Quantity> {
+fn shown() -> impl Iterator<Item = &'static DrainageQuantity> {
     QUANTITIES.iter().filter(|it| it.is_of_flow)
 }
 
 /// The reference and each other run, by colour.
-fn legend(reference: &Measured, others: &[Measured]) -> Vec<(RGBColor, String)> {
+fn legend(reference: &MeasuredRun, others: &[MeasuredRun]) -> Vec<(RGBColor, String)> {
     let first = &reference.name;
     let time = numbers::rounded(reference.cost, 2);
     let head = [
@@ -128,13 +118,13 @@ fn legend(reference: &Measured, others: &[Measured]) -> Vec<(RGBColor, String)> 
 
 /// A panel for each quantity that the reference and another run have, all with the same axes; none
 /// if there is no quantity, or no error above zero.
-fn panels(reference: &Measured, others: &[Measured]) -> Option<Vec<Panel>> {
+fn panels(reference: &MeasuredRun, others: &[MeasuredRun]) -> Option<Vec<ChartPanel>> {
     let costs = others.iter().map(|it| it.cost).chain([reference.cost]);
     let (low, high) = chart::ends(costs.filter(|it| *it > 0.0));
     let x = (low / BEYOND, high * BEYOND);
-    let errors: Vec<Errors> = shown()
+    let errors: Vec<QuantityErrors> = shown()
         .enumerate()
-        .filter_map(|(place, quantity)| Errors::of(quantity, place, reference, others))
+        .filter_map(|(place, quantity)| QuantityErrors::of(quantity, place, reference, others))
         .collect();
     let values = errors.iter().flat_map(|it| it.points.iter().flatten());
     let floors = errors.iter().map(|it| it.floor);
@@ -146,26 +136,26 @@ fn panels(reference: &Measured, others: &[Measured]) -> Option<Vec<Panel>> {
 }
 
 /// The errors of a quantity.
-struct Errors {
+struct QuantityErrors {
     name: &'static str,
     /// Half width of the interval of the reference, over its value.
     floor: f64,
     /// Cost of the reference.
     cost: f64,
-    /// Cost of each run, and its error; none where there is none.
+    /// Cost and error of each run; `None` without an error above zero.
     points: Vec<Option<(f64, Estimate)>>,
 }
 
-impl Errors {
+impl QuantityErrors {
     fn of(
-        quantity: &Quantity,
+        quantity: &DrainageQuantity,
         place: usize,
-        reference: &Measured,
-        others: &[Measured],
+        reference: &MeasuredRun,
+        others: &[MeasuredRun],
     ) -> Option<Self> {
         let first = reference.values[place].filter(|it| it.value != 0.0)?;
         let scale = first.value.abs();
-        let error = |run: &Measured| {
+        let error = |run: &MeasuredRun| {
             let other = run.values[place]?;
             let error = Estimate {
                 value: (other.value - first.value).abs() / scale,
@@ -182,8 +172,8 @@ impl Errors {
         })
     }
 
-    fn panel(&self, [x, y]: [(f64, f64); 2]) -> Panel {
-        let line = |points, color| Line { points, color };
+    fn panel(&self, [x, y]: [(f64, f64); 2]) -> ChartPanel {
+        let line = |points, color| ChartLine { points, color };
         let mut lines = vec![line(vec![(self.cost, y.0), (self.cost, y.1)], COST)];
         if (y.0..=y.1).contains(&self.floor) {
             let floor = vec![(x.0, self.floor), (x.1, self.floor)];
@@ -202,7 +192,7 @@ impl Errors {
             };
             Some(Bar::between((cost, error.value), ends, ink))
         });
-        Panel {
+        ChartPanel {
             head: vec![self.name.to_owned()],
             x,
             y,

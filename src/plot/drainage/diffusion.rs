@@ -1,7 +1,7 @@
 //! How far spheres stray from the mean flow, over the distance that they drop.
 
-use super::overlay::{Frame, Guide, Scale};
-use super::{Curve, Drainage, Lines, Overlay};
+use super::overlay::{Guide, OverlayPanel, PanelScale};
+use super::{MeasuredDrainage, Overlay, RunCurve, RunLines};
 use crate::compare::spreading;
 use crate::spot::voids::ROW_HEIGHT;
 
@@ -14,15 +14,15 @@ pub(super) static DIFFUSION: Overlay = Overlay {
         "mean square displacement / $d$²",
     ],
     panels: &[
-        Frame {
+        OverlayPanel {
             head: "across the flow, along x",
             x: None,
-            y: Scale::Decades,
+            y: PanelScale::Decades,
         },
-        Frame {
+        OverlayPanel {
             head: "along the flow",
             x: None,
-            y: Scale::Decades,
+            y: PanelScale::Decades,
         },
     ],
     note: "Of the spheres that start in the middle 40 % of the width at 30 to 80 % of the height; \
@@ -33,25 +33,25 @@ pub(super) static DIFFUSION: Overlay = Overlay {
     guides,
 };
 
-fn lines(drainage: &Drainage<'_>) -> Lines {
+fn lines(drainage: &MeasuredDrainage<'_>) -> RunLines {
     let diameter = drainage.filled_box.diameter;
     let spreading = spreading(drainage);
     let curve = |axis: usize| {
         let points = spreading.points.iter();
         let point = |it: &[f64; 3]| (it[0] / diameter, it[axis] / (diameter * diameter));
-        Curve::through(points.map(point).collect())
+        RunCurve::through(points.map(point).collect())
     };
     let word = spreading
         .peclet
         .map(|[across, _]| format!("Pe = {:.0} ± {:.0}", across.value, across.half_width));
-    Lines {
+    RunLines {
         curves: vec![curve(1), curve(2)],
         word,
     }
 }
 
 /// What voids make: a mean square displacement of d²/4 in a row.
-fn guides(drainage: &Drainage<'_>) -> Vec<Guide> {
+fn guides(drainage: &MeasuredDrainage<'_>) -> Vec<Guide> {
     let diameter = drainage.filled_box.diameter;
     let dropped = spreading(drainage).points;
     let dropped = dropped.iter().map(|it| it[0] / diameter);

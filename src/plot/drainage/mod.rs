@@ -18,43 +18,55 @@ mod surface_angle;
 mod velocity_correlation;
 mod velocity_profile;
 
-use super::{Figure, PlotError, Source, choice};
-use crate::compare::Drainage;
-use overlay::{Curve, Lines, Overlay};
+use super::runs::Runs;
+use super::{Figure, PlotError, Svg, choice};
+use crate::classify::DRAINAGE;
+use crate::compare::MeasuredDrainage;
+use overlay::{Overlay, RunCurve, RunLines};
 
 /// All of them.
-pub(super) static FIGURES: [&dyn Figure; 14] = [
-    &outflow::OUTFLOW,
-    &velocity_profile::VelocityProfiles,
-    &cross_profile::CROSS_PROFILE,
-    &packing_map::PackingMap,
-    &surface_angle::SURFACE_ANGLE,
-    &radial_distribution::RADIAL_DISTRIBUTION,
-    &bond_angles::BOND_ANGLES,
-    &badness::BADNESS,
-    &cost_error::CostError,
-    &mixing::MIXING,
-    &diffusion::DIFFUSION,
-    &velocity_correlation::VELOCITY_CORRELATION,
-    &retention::RETENTION,
-    &residence::RESIDENCE,
-];
+pub(super) fn figures() -> [Figure; 14] {
+    [
+        outflow::OUTFLOW.figure(),
+        velocity_profile::figure(),
+        cross_profile::CROSS_PROFILE.figure(),
+        packing_map::figure(),
+        surface_angle::SURFACE_ANGLE.figure(),
+        radial_distribution::RADIAL_DISTRIBUTION.figure(),
+        bond_angles::BOND_ANGLES.figure(),
+        badness::BADNESS.figure(),
+        cost_error::figure(),
+        mixing::MIXING.figure(),
+        diffusion::DIFFUSION.figure(),
+        velocity_correlation::VELOCITY_CORRELATION.figure(),
+        retention::RETENTION.figure(),
+        residence::RESIDENCE.figure(),
+    ]
+}
 
-/// What is common to the places of a figure's runs, and what it takes from each run: from the rest
-/// of its place, and from its drainage.
+/// A figure of drainages, which takes times, and perhaps data of other sources.
+fn of_drainages(
+    name: &'static str,
+    description: &str,
+    takes_data: bool,
+    draw: impl Fn(&Runs<'_>) -> Result<Svg, PlotError> + Send + Sync + 'static,
+) -> Figure {
+    Figure::of_runs(name, description, &choice::STATES, draw)
+        .with_options(takes_data)
+        .for_families([&DRAINAGE])
+}
+
+/// What a figure takes from each of its runs: from its name, and from its drainage.
 fn each<T>(
-    source: &Source<'_>,
-    figure: &'static str,
-    mut take: impl FnMut(Vec<String>, &Drainage<'_>) -> T,
-) -> Result<(Vec<String>, Vec<T>), PlotError> {
-    let runs = choice::runs(source, choice::states)?;
-    let (common, places) = choice::places(&runs);
-    let taken = runs.iter().zip(places).map(|(run, place)| {
+    runs: &Runs<'_>,
+    figure: &str,
+    mut take: impl FnMut(Vec<String>, &MeasuredDrainage<'_>) -> T,
+) -> Result<Vec<T>, PlotError> {
+    let taken = runs.shown.iter().map(|run| {
         let record = run.record()?;
-        let drainage = Drainage::new(&record, source.times);
-        let drainage = drainage.map_err(|needs| PlotError::Scene { figure, needs })?;
-        Ok(take(place, &drainage))
+        let drainage = MeasuredDrainage::new(&record, runs.times);
+        let drainage = drainage.map_err(|needs| PlotError::needs(figure, needs))?;
+        Ok(take(run.name.clone(), &drainage))
     });
-    let taken: Result<Vec<T>, PlotError> = taken.collect();
-    Ok((common, taken?))
+    taken.collect()
 }

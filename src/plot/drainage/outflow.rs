@@ -1,7 +1,7 @@
 //! How many spheres have left, over time.
 
-use super::overlay::{self, Frame, Scale};
-use super::{Curve, Drainage, Lines, Overlay};
+use super::overlay::{self, OverlayPanel, PanelScale};
+use super::{MeasuredDrainage, Overlay, RunCurve, RunLines};
 use crate::measure::outflow_rate;
 use crate::plot::numbers;
 
@@ -10,17 +10,17 @@ pub(super) static OUTFLOW: Overlay = Overlay {
     name: "outflow",
     description: "spheres that have left over time, and their rate",
     labels: ["time (s)", "spheres that have left"],
-    panels: &[Frame {
+    panels: &[OverlayPanel {
         head: "",
         x: None,
-        y: Scale::FromZero,
+        y: PanelScale::FromZero,
     }],
     note: "Rates with 95 % intervals (jackknife over blocks of time).",
     lines,
     guides: overlay::none,
 };
 
-fn lines(drainage: &Drainage<'_>) -> Lines {
+fn lines(drainage: &MeasuredDrainage<'_>) -> RunLines {
     let [time, left] = drainage.left();
     let rate = outflow_rate(&time, &left, drainage.times);
     let word = rate.map(|rate| {
@@ -28,8 +28,8 @@ fn lines(drainage: &Drainage<'_>) -> Lines {
         format!("{value} ± {half} per {}", drainage.units().of_time())
     });
     let points = time.into_iter().zip(left);
-    Lines {
-        curves: vec![Curve::through(points.collect())],
+    RunLines {
+        curves: vec![RunCurve::through(points.collect())],
         word,
     }
 }

@@ -1,13 +1,13 @@
 //! Figures in which each run is a line.
 
-use super::{Drainage, each};
-use crate::classify::{DRAINAGE, Family};
+use super::{MeasuredDrainage, each, of_drainages};
 use crate::color::ColorMap;
-use crate::plot::chart::{self, Bar, Chart, Line, Panel};
+use crate::plot::chart::{self, Bar, Chart, ChartLine, ChartPanel};
 use crate::plot::page::columns;
+use crate::plot::runs::Runs;
 use crate::plot::style::px;
 use crate::plot::svg::Svg;
-use crate::plot::{Figure, PlotError, Source, palette};
+use crate::plot::{Figure, PlotError, palette};
 use crate::scene::Units;
 use crate::store::DataSet;
 use plotters::style::RGBColor;
@@ -18,12 +18,12 @@ pub(super) struct Overlay {
     pub(super) description: &'static str,
     /// Labels of the axes, with markup.
     pub(super) labels: [&'static str; 2],
-    pub(super) panels: &'static [Frame],
+    pub(super) panels: &'static [OverlayPanel],
     pub(super) note: &'static str,
     /// What a run shows.
-    pub(super) lines: fn(&Drainage<'_>) -> Lines,
+    pub(super) lines: fn(&MeasuredDrainage<'_>) -> RunLines,
     /// What the first run is compared with, in the first panel.
-    pub(super) guides: fn(&Drainage<'_>) -> Vec<Guide>,
+    pub(super) guides: fn(&MeasuredDrainage<'_>) -> Vec<Guide>,
 }
 
 /// A line that runs are compared with.
@@ -34,22 +34,22 @@ pub(super) struct Guide {
 }
 
 /// No guides.
-pub(super) fn none(_: &Drainage<'_>) -> Vec<Guide> {
+pub(super) fn none(_: &MeasuredDrainage<'_>) -> Vec<Guide> {
     Vec::new()
 }
 
 /// A panel.
-pub(super) struct Frame {
+pub(super) struct OverlayPanel {
     /// What stands above it.
     pub(super) head: &'static str,
-    /// Ends of the horizontal axis; those of the lines where there are none.
+    /// Ends of the horizontal axis; `None` for an axis as long as its lines.
     pub(super) x: Option<(f64, f64)>,
-    pub(super) y: Scale,
+    pub(super) y: PanelScale,
 }
 
 /// What the vertical axis of a panel is like.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Scale {
+pub(super) enum PanelScale {
     /// As far as the lines go.
     Free,
     /// From zero up.
@@ -61,22 +61,22 @@ pub(super) enum Scale {
 }
 
 /// What a run shows.
-pub(super) struct Lines {
+pub(super) struct RunLines {
     /// A line for each panel.
-    pub(super) curves: Vec<Curve>,
+    pub(super) curves: Vec<RunCurve>,
     /// What the legend says of it besides its name, with markup.
     pub(super) word: Option<String>,
 }
 
 /// A line of a run.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Curve {
+pub(super) struct RunCurve {
     pub(super) points: Vec<(f64, f64)>,
     /// Half widths of the intervals of all points; none if there are none.
     pub(super) half_widths: Vec<f64>,
 }
 
-impl Curve {
+impl RunCurve {
     /// A line without intervals.
     pub(super) fn through(points: Vec<(f64, f64)>) -> Self {
         Self {
@@ -86,37 +86,22 @@ impl Curve {
     }
 }
 
-impl Figure for Overlay {
-    fn name(&self) -> &'static str {
-        self.name
+impl Overlay {
+    pub(super) fn figure(&'static self) -> Figure {
+        let draw = |runs: &Runs<'_>| self.draw(runs);
+        of_drainages(self.name, self.description, true, draw)
     }
 
-    fn description(&self) -> String {
-        self.description.to_owned()
-    }
-
-    fn default_runs(&self) -> Option<&'static str> {
-        Some("a typical run of every state")
-    }
-
-    fn families(&self) -> Vec<&'static Family> {
-        vec![&DRAINAGE]
-    }
-
-    fn takes_data(&self) -> bool {
-        true
-    }
-
-    fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
+    fn draw(&self, runs: &Runs<'_>) -> Result<Svg, PlotError> {
         let mut first = None;
-        let (common, mut shown) = each(source, self.name, |place, drainage| {
+        let mut shown = each(runs, self.name, |place, drainage| {
             first.get_or_insert_with(|| ((self.guides)(drainage), drainage.units()));
             (place, (self.lines)(drainage))
         })?;
-        shown.extend(source.data.iter().map(|data| self.of_data(data)));
+        shown.extend(runs.data.iter().map(|data| self.of_data(data)));
         let (guides, units) = first.unwrap_or((Vec::new(), Units::Si));
         let panels = self.panels.iter().enumerate();
-        let mut panels: Vec<Panel> = panels
+        let mut panels: Vec<ChartPanel> = panels
             .map(|(index, frame)| {
                 let guides = if index == 0 { &guides[..] } else { &[] };
                 frame.panel(shown.iter().map(|(_, it)| &it.curves[index]), guides)
@@ -127,7 +112,7 @@ impl Figure for Overlay {
             .iter()
             .all(|panel| panel.lines.iter().all(|it| it.points.is_empty()))
         {
-            return Err(PlotError::NoMeasures { figure: self.name });
+            return Err(PlotError::no_measures(self.name));
         }
         let count = shown.len();
         let named = shown.into_iter().enumerate();
@@ -141,7 +126,7 @@ impl Figure for Overlay {
         let [x_label, y_label] = self.labels.map(|label| in_units(label, units));
         Chart {
             name: self.name,
-            common,
+            common: runs.common.clone(),
             columns: columns(panels.len()),
             height: px(300),
             legend: legend.chain(named_guides).collect(),
@@ -150,23 +135,21 @@ impl Figure for Overlay {
             y_label,
             notes: Vec::from_iter((!self.note.is_empty()).then(|| self.note.to_owned())),
         }
-        .draw(source)
+        .draw(&runs.origin)
     }
-}
 
-impl Overlay {
     /// What data of another source show: a line in the first panel.
-    fn of_data(&self, data: &DataSet) -> (Vec<String>, Lines) {
-        let mut curves = vec![Curve::default(); self.panels.len()];
+    fn of_data(&self, data: &DataSet) -> (Vec<String>, RunLines) {
+        let mut curves = vec![RunCurve::default(); self.panels.len()];
         if let Some(curve) = curves.first_mut() {
             curve.points.clone_from(&data.points);
             curve.half_widths.clone_from(&data.half_widths);
         }
-        (vec![data.name.clone()], Lines { curves, word: None })
+        (vec![data.name.clone()], RunLines { curves, word: None })
     }
 
     /// Gives panels of one kind the same axes, as far as the lines of all of them go.
-    fn align(&self, panels: &mut [Panel]) {
+    fn align(&self, panels: &mut [ChartPanel]) {
         let frames = self.panels.iter().zip(panels.iter());
         let filled = frames.filter(|(_, panel)| !panel.lines.iter().all(|it| it.points.is_empty()));
         let axes: Vec<_> = filled
@@ -211,16 +194,16 @@ pub(super) fn color(index: usize, count: usize) -> RGBColor {
     }
 }
 
-impl Frame {
+impl OverlayPanel {
     /// The panel of the curves of all runs, and of guides.
     fn panel<'c>(
         &self,
-        curves: impl ExactSizeIterator<Item = &'c Curve>,
+        curves: impl ExactSizeIterator<Item = &'c RunCurve>,
         guides: &[Guide],
-    ) -> Panel {
+    ) -> ChartPanel {
         let count = curves.len();
         let (mut lines, mut bars) = (Vec::new(), Vec::new());
-        lines.extend(guides.iter().zip(GUIDES).map(|(guide, color)| Line {
+        lines.extend(guides.iter().zip(GUIDES).map(|(guide, color)| ChartLine {
             points: guide.points.clone(),
             color,
         }));
@@ -229,13 +212,13 @@ impl Frame {
             let points = curve.points.iter().copied();
             let drawable = |point: &(f64, f64)| {
                 let is_positive = match self.y {
-                    Scale::Free | Scale::FromZero => true,
-                    Scale::Logarithmic => point.1 > 0.0,
-                    Scale::Decades => point.0 > 0.0 && point.1 > 0.0,
+                    PanelScale::Free | PanelScale::FromZero => true,
+                    PanelScale::Logarithmic => point.1 > 0.0,
+                    PanelScale::Decades => point.0 > 0.0 && point.1 > 0.0,
                 };
                 point.1.is_finite() && is_positive
             };
-            lines.push(Line {
+            lines.push(ChartLine {
                 points: points.clone().filter(drawable).collect(),
                 color,
             });
@@ -246,7 +229,7 @@ impl Frame {
         let places = lines.iter().flat_map(|line| &line.points);
         let (low, high) = chart::ends(places.map(|point| point.0));
         // Dots at the ends of an axis of their own would be cut in half.
-        let is_dotted = !bars.is_empty() && self.y != Scale::Decades;
+        let is_dotted = !bars.is_empty() && self.y != PanelScale::Decades;
         let margin = if is_dotted { 0.02 * (high - low) } else { 0.0 };
         let x = self.x.unwrap_or(if low < high {
             (low - margin, high + margin)
@@ -262,12 +245,12 @@ impl Frame {
         }
         bars.retain(|bar| is_inside(&bar.at));
         let head = Vec::from_iter((!self.head.is_empty()).then(|| self.head.to_owned()));
-        let panel = Panel::new(head, x, lines).with_bars(bars);
+        let panel = ChartPanel::new(head, x, lines).with_bars(bars);
         match self.y {
-            Scale::Free => panel,
-            Scale::FromZero => panel.down_to_zero(),
-            Scale::Logarithmic => panel.logarithmic(),
-            Scale::Decades => panel.logarithmic_both(),
+            PanelScale::Free => panel,
+            PanelScale::FromZero => panel.down_to_zero(),
+            PanelScale::Logarithmic => panel.logarithmic(),
+            PanelScale::Decades => panel.logarithmic_both(),
         }
     }
 }

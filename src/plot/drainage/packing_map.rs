@@ -1,21 +1,21 @@
 //! Maps of the local packing fraction (Rycroft, Wong and Bazant, 2010, figure 4).
 
-use super::{Drainage, each};
-use crate::classify::{DRAINAGE, Family};
+use super::{MeasuredDrainage, each, of_drainages};
 use crate::measure::{CellBounds, CellGrid, Centres, local_packing_fraction, voronoi_cells};
 use crate::observe::Snapshot;
 use crate::particles::vector::Vector;
 use crate::plot::canvas::SNAP;
 use crate::plot::color_bar::ColorBar;
-use crate::plot::page::{Frame, Page, Plan};
-use crate::plot::scale::Span;
+use crate::plot::page::{FigurePage, PagePlan, PanelFrame};
+use crate::plot::runs::Runs;
+use crate::plot::scale::AxisSpan;
 use crate::plot::style::px;
 use crate::plot::svg::{Placed, Svg};
-use crate::plot::{Figure, PlotError, Source, numbers};
+use crate::plot::{Figure, PlotError, numbers};
 use crate::render::Image;
 
-/// Maps of the local packing fraction at two times.
-pub(super) struct PackingMap;
+/// Name of the figure.
+const NAME: &str = "packing-map";
 
 /// Distance of the spheres that count at a place, in diameters.
 const DISTANCE: f64 = 2.2;
@@ -30,47 +30,38 @@ const SHOWN: [f64; 2] = [0.11, 0.67];
 /// Maps beside each other.
 const COLUMNS: usize = 4;
 
-impl Figure for PackingMap {
-    fn name(&self) -> &'static str {
-        "packing-map"
-    }
+pub(super) fn figure() -> Figure {
+    of_drainages(
+        NAME,
+        "maps of the local packing fraction in the middle of the depth, at two times",
+        false,
+        draw,
+    )
+}
 
-    fn description(&self) -> String {
-        "maps of the local packing fraction in the middle of the depth, at two times".to_owned()
-    }
-
-    fn default_runs(&self) -> Option<&'static str> {
-        Some("a typical run of every state")
-    }
-
-    fn families(&self) -> Vec<&'static Family> {
-        vec![&DRAINAGE]
-    }
-
-    fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
-        let (common, maps) = each(source, self.name(), |place, drainage| {
-            let duration = drainage.record.scene.time.duration;
-            let shown = source.times.unwrap_or(SHOWN.map(|share| share * duration));
-            shown.map(|time| Map::new(drainage, time, place.clone()))
-        })?;
-        draw(self.name(), source, &common, maps.as_flattened())
-    }
+fn draw(runs: &Runs<'_>) -> Result<Svg, PlotError> {
+    let maps = each(runs, NAME, |place, drainage| {
+        let duration = drainage.record.scene.time.duration;
+        let shown = runs.times.unwrap_or(SHOWN.map(|share| share * duration));
+        shown.map(|time| PackingPicture::new(drainage, time, place.clone()))
+    })?;
+    draw_maps(runs, maps.as_flattened())
 }
 
 /// Packing fractions of a state in the plane y = 0.
-struct Map {
+struct PackingPicture {
     head: Vec<String>,
     /// Half of the width, and the height (diameters).
     extent: [f64; 2],
     /// Cells along the width and the height.
     cells: [usize; 2],
-    /// Row by row from below; none where there are no spheres.
+    /// Row by row from below; `None` where there are no spheres.
     values: Vec<Option<f64>>,
 }
 
-impl Map {
+impl PackingPicture {
     /// Of the state nearest to a time.
-    fn new(drainage: &Drainage<'_>, time: f64, mut head: Vec<String>) -> Self {
+    fn new(drainage: &MeasuredDrainage<'_>, time: f64, mut head: Vec<String>) -> Self {
         let away = |state: &&Snapshot| (drainage.since_opening(state.time) - time).abs();
         let states = drainage.states().iter();
         let nearest = states.min_by(|one, other| away(one).total_cmp(&away(other)));
@@ -126,32 +117,27 @@ impl Map {
     }
 }
 
-fn draw(
-    name: &'static str,
-    source: &Source<'_>,
-    common: &[String],
-    maps: &[Map],
-) -> Result<Svg, PlotError> {
+fn draw_maps(runs: &Runs<'_>, maps: &[PackingPicture]) -> Result<Svg, PlotError> {
     let extent = maps.iter().fold([0.0; 2], |most: [f64; 2], map| {
         [0, 1].map(|axis| most[axis].max(map.extent[axis]))
     });
-    let frame = |map: &Map| Frame {
+    let frame = |map: &PackingPicture| PanelFrame {
         head: map.head.clone(),
-        x: Span::linear((-map.extent[0], map.extent[0])),
-        y: Span::linear((0.0, map.extent[1])),
+        x: AxisSpan::linear((-map.extent[0], map.extent[0])),
+        y: AxisSpan::linear((0.0, map.extent[1])),
     };
     let label = "local packing fraction".to_owned();
     let bar = ColorBar::new(RANGE.into_iter(), false, label);
-    let bar = bar.ok_or(PlotError::NoMeasures { figure: name })?;
+    let bar = bar.ok_or_else(|| PlotError::no_measures(NAME))?;
     let height = px(420);
     let notes = [format!(
         "Volume over that of the Voronoi cells, of the spheres within {DISTANCE} diameters of a \
          place at $y$ = 0."
     )];
     let page_beside = |bar: &ColorBar| {
-        Page::new(Plan {
-            title: source.sweep.title.as_deref(),
-            common,
+        FigurePage::new(PagePlan {
+            title: runs.origin.title,
+            common: &runs.common,
             frames: maps.iter().map(frame).collect(),
             columns: maps.len().min(COLUMNS),
             height,
@@ -159,7 +145,7 @@ fn draw(
             aside: bar.width(),
             labels: ["$x$ / $d$", "height $z$ / $d$"].map(str::to_owned),
             notes: &notes,
-            ..Plan::default()
+            ..PagePlan::default()
         })
     };
     let tall = bar.clone().fitted(height / 2);
@@ -189,5 +175,5 @@ fn draw(
             corner,
         }
     });
-    Svg::new(name, source, &body).with_pictures(pictures.collect())
+    Svg::new(NAME, &runs.origin, &body).with_pictures(pictures.collect())
 }

@@ -1,7 +1,7 @@
 //! How long spheres stay, by where they start.
 
-use super::overlay::{self, Frame, Scale};
-use super::{Curve, Drainage, Lines, Overlay};
+use super::overlay::{self, OverlayPanel, PanelScale};
+use super::{MeasuredDrainage, Overlay, RunCurve, RunLines};
 use crate::measure::Residence;
 
 /// How long spheres stay.
@@ -13,20 +13,20 @@ pub(super) static RESIDENCE: Overlay = Overlay {
         "time until half have left (s)",
     ],
     panels: &[
-        Frame {
+        OverlayPanel {
             head: "above the opening",
             x: None,
-            y: Scale::FromZero,
+            y: PanelScale::FromZero,
         },
-        Frame {
+        OverlayPanel {
             head: "halfway to the side walls",
             x: None,
-            y: Scale::FromZero,
+            y: PanelScale::FromZero,
         },
-        Frame {
+        OverlayPanel {
             head: "at the side walls",
             x: None,
-            y: Scale::FromZero,
+            y: PanelScale::FromZero,
         },
     ],
     note: "Of the inner, the third and the outer of five parts of the half width. A line ends \
@@ -41,7 +41,7 @@ const SHOWN: [usize; 3] = [0, 2, 4];
 /// Height of a bin, in diameters.
 const HEIGHT: f64 = 4.0;
 
-fn lines(drainage: &Drainage<'_>) -> Lines {
+fn lines(drainage: &MeasuredDrainage<'_>) -> RunLines {
     let (floor, diameter) = (drainage.filled_box.floor, drainage.filled_box.diameter);
     let mut residence = Residence::new(drainage.start());
     for state in &drainage.states()[1..] {
@@ -57,9 +57,9 @@ fn lines(drainage: &Drainage<'_>) -> Lines {
         let points = times.iter().filter(|it| part(it.distance) == shown);
         let points =
             points.filter_map(|it| Some(((it.height - floor) / diameter, it.quartiles[1]?)));
-        Curve::through(points.collect())
+        RunCurve::through(points.collect())
     };
-    Lines {
+    RunLines {
         curves: SHOWN.map(curve).to_vec(),
         word: None,
     }

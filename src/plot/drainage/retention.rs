@@ -1,7 +1,7 @@
 //! How many neighbours spheres keep on their way down.
 
-use super::overlay::{self, Frame, Scale};
-use super::{Curve, Drainage, Lines, Overlay};
+use super::overlay::{self, OverlayPanel, PanelScale};
+use super::{MeasuredDrainage, Overlay, RunCurve, RunLines};
 use crate::measure::NeighbourRetention;
 
 /// How many neighbours spheres keep.
@@ -9,10 +9,10 @@ pub(super) static RETENTION: Overlay = Overlay {
     name: "retention",
     description: "share of the neighbours that spheres keep, over the distance dropped",
     labels: ["distance dropped over diameter", "share of neighbours kept"],
-    panels: &[Frame {
+    panels: &[OverlayPanel {
         head: "",
         x: None,
-        y: Scale::FromZero,
+        y: PanelScale::FromZero,
     }],
     note: "Neighbours are nearer than 1.3 diameters. Of the spheres that start in the middle 60 % \
            of the width above 14 % of the height, at all later times.",
@@ -27,7 +27,7 @@ const WIDTH: f64 = 2.0;
 /// Fewest neighbours at the start of a bin that counts.
 const FEWEST: f64 = 200.0;
 
-fn lines(drainage: &Drainage<'_>) -> Lines {
+fn lines(drainage: &MeasuredDrainage<'_>) -> RunLines {
     let diameter = drainage.filled_box.diameter;
     let region = drainage.filled_box.part(0.6, [0.14, 1.0]);
     let retention = NeighbourRetention::new(drainage.start(), &region, CUTOFF * diameter);
@@ -47,8 +47,8 @@ fn lines(drainage: &Drainage<'_>) -> Lines {
     let counted = bins.into_iter().enumerate();
     let counted = counted.filter(|(_, [neighbours, _])| *neighbours >= FEWEST);
     let points = counted.map(|(bin, [all, kept])| ((bin as f64 + 0.5) * WIDTH, kept / all));
-    Lines {
-        curves: vec![Curve::through(points.collect())],
+    RunLines {
+        curves: vec![RunCurve::through(points.collect())],
         word: None,
     }
 }

@@ -1,7 +1,7 @@
 //! How velocities across the flow are correlated, over the distance of two spheres.
 
-use super::overlay::{self, Frame, Scale};
-use super::{Curve, Drainage, Lines, Overlay};
+use super::overlay::{self, OverlayPanel, PanelScale};
+use super::{MeasuredDrainage, Overlay, RunCurve, RunLines};
 use crate::compare::{correlation_radius, velocity_correlation};
 use crate::measure::ProfilePoint;
 
@@ -13,10 +13,10 @@ pub(super) static VELOCITY_CORRELATION: Overlay = Overlay {
         "distance over diameter $r$ / $d$",
         "correlation of velocities $<u_i u_j>$ / $<u²>$",
     ],
-    panels: &[Frame {
+    panels: &[OverlayPanel {
         head: "",
         x: None,
-        y: Scale::Free,
+        y: PanelScale::Free,
     }],
     note: "Of displacements along x between snapshots, about the mean flow, in the middle 40 % of \
            the width at 30 to 80 % of the height. R: of two spots whose common volume falls as the \
@@ -25,7 +25,7 @@ pub(super) static VELOCITY_CORRELATION: Overlay = Overlay {
     guides: overlay::none,
 };
 
-fn lines(drainage: &Drainage<'_>) -> Lines {
+fn lines(drainage: &MeasuredDrainage<'_>) -> RunLines {
     let diameter = drainage.filled_box.diameter;
     let values = velocity_correlation(drainage).points();
     let point = |it: &ProfilePoint| (it.place / diameter, it.value.value);
@@ -37,8 +37,8 @@ fn lines(drainage: &Drainage<'_>) -> Lines {
             false => format!("$R$ = {value:.2} $d$"),
         }
     });
-    Lines {
-        curves: vec![Curve {
+    RunLines {
+        curves: vec![RunCurve {
             points: values.iter().map(point).collect(),
             half_widths: values.iter().map(|it| it.value.half_width).collect(),
         }],

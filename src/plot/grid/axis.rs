@@ -3,8 +3,8 @@
 use crate::classify::LabelTable;
 use crate::grid::Axis;
 use crate::plot::numbers;
-use crate::plot::scale::Span;
-use crate::plot::spacing::Spacing;
+use crate::plot::scale::AxisSpan;
+use crate::plot::spacing::AxisSpacing;
 use crate::plot::ticks::Ticks;
 use crate::scene::Scene;
 use crate::sweep::{PlotSettings, Sweep};
@@ -34,7 +34,7 @@ pub(in crate::plot) struct GridAxis {
 }
 
 impl GridAxis {
-    /// The axis of that index among those of the sweep.
+    /// The axis of this index in the sweep.
     pub(in crate::plot) fn new(index: usize, sweep: &Sweep, table: &LabelTable) -> Self {
         let values = table.rows.iter().map(|row| row.values[index]);
         Self::over(index, &sweep.axes, &sweep.scene, values).with(&sweep.plot)
@@ -129,11 +129,11 @@ impl GridAxis {
     }
 
     /// How its shown values are spaced: as the settings want it, or else as suits them.
-    pub(in crate::plot) fn spacing(&self) -> Spacing {
+    pub(in crate::plot) fn spacing(&self) -> AxisSpacing {
         match (self.is_even, self.logarithmic()) {
-            (true, _) => Spacing::equal(self.shown()),
-            (false, true) => Spacing::Logarithmic,
-            (false, false) => Spacing::Linear,
+            (true, _) => AxisSpacing::equal(self.shown()),
+            (false, true) => AxisSpacing::Logarithmic,
+            (false, false) => AxisSpacing::Linear,
         }
     }
 
@@ -180,9 +180,9 @@ impl GridAxis {
     }
 
     /// Its range, with ticks at its values where they fit.
-    pub(in crate::plot) fn span(&self) -> Span {
+    pub(in crate::plot) fn span(&self) -> AxisSpan {
         let edges = self.edges();
-        Span {
+        AxisSpan {
             low: edges[0],
             high: edges[edges.len() - 1],
             spacing: self.spacing(),
@@ -196,13 +196,13 @@ impl GridAxis {
 
     /// The value at a fraction of the axis, as shown.
     pub(in crate::plot) fn along(&self, fraction: f64) -> f64 {
-        let Span {
+        let AxisSpan {
             low, high, spacing, ..
         } = self.span();
         spacing.along(fraction, low, high)
     }
 
-    /// Which of the values is that of a point of the grid.
+    /// Which of the values a point of the grid has.
     pub(in crate::plot) fn position(&self, values: &[f64]) -> Option<usize> {
         let value = values[self.index];
         self.values.iter().position(|&other| other == value)
@@ -250,10 +250,10 @@ fn share_of(axis: &Axis, scene: &Scene) -> Option<String> {
 }
 
 /// The vertical axis of a figure that has none: from 0 to 1, without ticks.
-pub(in crate::plot) fn strip() -> Span {
-    Span {
+pub(in crate::plot) fn strip() -> AxisSpan {
+    AxisSpan {
         ticks: Ticks::Given(Vec::new()),
-        ..Span::linear((0.0, 1.0))
+        ..AxisSpan::linear((0.0, 1.0))
     }
 }
 

@@ -11,7 +11,7 @@ pub(super) use axis::{GridAxis, strip};
 
 /// One of the small multiples; its cells hold points of a sweep, or of something else.
 #[derive(Clone, Debug)]
-pub(super) struct Panel<P = Point> {
+pub(super) struct GridPanel<P = Point> {
     /// What stands above it.
     pub(super) head: Option<String>,
     /// Values of the axes it is for, on `columns` and `rows` of the grid.
@@ -23,7 +23,7 @@ pub(super) struct Panel<P = Point> {
 
 /// The axes of a figure and the points in its cells.
 #[derive(Clone, Debug)]
-pub(super) struct Grid<P = Point> {
+pub(super) struct PanelGrid<P = Point> {
     pub(super) x: GridAxis,
     pub(super) y: Option<GridAxis>,
     /// Axis of the small multiples.
@@ -31,10 +31,10 @@ pub(super) struct Grid<P = Point> {
     /// A second such axis.
     pub(super) rows: Option<GridAxis>,
     /// Panels, row by row.
-    pub(super) panels: Vec<Panel<P>>,
+    pub(super) panels: Vec<GridPanel<P>>,
 }
 
-impl Grid {
+impl PanelGrid {
     /// Chooses the axes as the sweep's plot settings say and sorts the table into cells.
     pub(super) fn new(source: &Source<'_>) -> Result<Self, PlotError> {
         let (sweep, table) = (source.sweep, source.table);
@@ -42,7 +42,7 @@ impl Grid {
         let places = places(sweep)?;
         let axis = |place: usize| places[place].map(|index| GridAxis::new(index, sweep, table));
         let mut grid = Self {
-            x: axis(0).ok_or(PlotError::NoAxis)?,
+            x: axis(0).ok_or_else(PlotError::no_axis)?,
             y: axis(1),
             columns: axis(2),
             rows: axis(3),
@@ -61,7 +61,7 @@ impl Grid {
         let columns: Vec<Option<f64>> = values(&self.columns);
         for row in values(&self.rows) {
             self.panels.extend(columns.iter().map(|&column| {
-                Panel {
+                GridPanel {
                     head: self
                         .columns
                         .as_ref()
@@ -91,7 +91,7 @@ impl Grid {
     }
 }
 
-impl<P> Grid<P> {
+impl<P> PanelGrid<P> {
     /// Number of cells of a panel, horizontally and vertically.
     pub(super) fn cells(&self) -> (usize, usize) {
         let vertical = self.y.as_ref().map_or(1, |axis| axis.values.len());
@@ -99,7 +99,7 @@ impl<P> Grid<P> {
     }
 
     /// The place of the variant that a panel stands for, if it stands for one.
-    pub(super) fn variant(&self, panel: &Panel<P>) -> Option<f64> {
+    pub(super) fn variant(&self, panel: &GridPanel<P>) -> Option<f64> {
         let axes = [(&self.columns, panel.column), (&self.rows, panel.row)];
         axes.into_iter().find_map(|(axis, value)| {
             value.filter(|_| axis.as_ref().is_some_and(|it| !it.words.is_empty()))
@@ -125,18 +125,22 @@ impl<P> Grid<P> {
 pub(super) fn check(sweep: &Sweep, table: &LabelTable) -> Result<(), PlotError> {
     let names: Vec<&str> = sweep.axes.iter().map(|axis| axis.name.as_str()).collect();
     if names != table.axes {
-        return Err(PlotError::OtherAxes {
-            sweep: names.join(", "),
-            table: table.axes.join(", "),
-        });
+        return Err(PlotError::file(format_args!(
+            "the table has the axes {}, but the sweep has {}; classify it again",
+            table.axes.join(", "),
+            names.join(", ")
+        )));
     }
     if table.rows.is_empty() {
-        return Err(PlotError::EmptyTable);
+        return Err(PlotError::empty_table());
     }
     for row in &table.rows {
         let finite = row.values.iter().all(|value| value.is_finite());
         if row.values.len() != names.len() || !finite {
-            return Err(PlotError::BadRow { id: row.id.clone() });
+            return Err(PlotError::file(format_args!(
+                "run {}: its row does not hold one finite value per axis; classify it again",
+                row.id
+            )));
         }
     }
     Ok(())
@@ -152,7 +156,9 @@ pub(super) fn places(sweep: &Sweep) -> Result<[Option<usize>; 4], PlotError> {
         let Some(name) = name else { continue };
         let index = find(&sweep.axes, name)?;
         if places.contains(&Some(index)) {
-            return Err(PlotError::AxisTwice { name: name.clone() });
+            return Err(PlotError::file(format_args!(
+                "[plot] uses the axis `{name}` twice; x, y and panels must differ"
+            )));
         }
         places[place] = Some(index);
     }
@@ -164,7 +170,9 @@ pub(super) fn places(sweep: &Sweep) -> Result<[Option<usize>; 4], PlotError> {
         }
     }
     match others.next() {
-        Some(_) => Err(PlotError::TooManyAxes),
+        Some(_) => Err(PlotError::file(
+            "a figure shows at most four axes: x, y, and two of small multiples",
+        )),
         None => Ok(places),
     }
 }
@@ -174,9 +182,9 @@ fn find(axes: &[Axis], name: &str) -> Result<usize, PlotError> {
     let found = positions.position(|axis| axis.name == name || axis.key == name);
     found.ok_or_else(|| {
         let known: Vec<&str> = axes.iter().map(|axis| axis.name.as_str()).collect();
-        PlotError::UnknownAxis {
-            name: name.to_owned(),
-            known: known.join(", "),
-        }
+        PlotError::file(format_args!(
+            "[plot] names the axis `{name}`, but the axes of this sweep are {}",
+            known.join(", ")
+        ))
     })
 }

@@ -6,11 +6,11 @@
 mod view;
 
 use super::axes::Plot;
-use super::page::{Frame, Page, Plan};
-use super::scale::Span;
-use super::style::{Drawn, Sheet, px};
+use super::page::{FigurePage, PagePlan, PanelFrame};
+use super::scale::AxisSpan;
+use super::style::{Drawn, FigureSheet, px};
 use super::svg::Svg;
-use super::{PlotError, palette};
+use super::{Figure, PlotError, palette};
 use crate::record::RunRecord;
 use plotters::element::{Circle, PathElement, Polygon};
 use plotters::style::{BLACK, Color, WHITE};
@@ -31,13 +31,17 @@ const MOST_SPHERES: usize = 32;
 /// Stroke of a path.
 const STROKE: u32 = 18;
 
-/// Draws the tracks of a run.
-///
-/// # Errors
-/// [`PlotError::NoTrajectory`] if the record holds no trajectory.
-pub fn draw(record: &RunRecord) -> Result<Svg, PlotError> {
+pub(super) fn figure() -> Figure {
+    let description = "paths of the spheres, from the record of one run with its trajectory";
+    Figure::of_record("tracks", description, draw)
+}
+
+fn draw(record: &RunRecord) -> Result<Svg, PlotError> {
     if record.trajectory.len() < 2 {
-        return Err(PlotError::NoTrajectory);
+        return Err(PlotError::nothing(
+            "the record holds no trajectory; add `trajectory = true` to [output] of the scene and \
+             run it again",
+        ));
     }
     let view = View::new(record);
     let mut tracks = Tracks {
@@ -128,29 +132,29 @@ impl Tracks<'_> {
         surfaces.chain(centres).fold(0.0, f64::max)
     }
 
-    fn page(&self) -> Page {
+    fn page(&self) -> FigurePage {
         let [across, up] = self.sight.ranges;
         let (height, aspect) = match self.view {
             View::Time { .. } => (OVER_TIME, None),
             View::Plane { .. } => (HEIGHT, Some((across.1 - across.0) / (up.1 - up.0))),
         };
-        Page::new(Plan {
+        FigurePage::new(PagePlan {
             title: self.record.scene.title.as_deref(),
-            frames: vec![Frame {
+            frames: vec![PanelFrame {
                 head: Vec::new(),
-                x: Span::linear(across),
-                y: Span::linear(up),
+                x: AxisSpan::linear(across),
+                y: AxisSpan::linear(up),
             }],
             columns: 1,
             height,
             aspect,
             labels: self.view.labels(),
             notes: &[self.caption()],
-            ..Plan::default()
+            ..PagePlan::default()
         })
     }
 
-    fn draw_sphere(&self, sheet: &Sheet<'_>, plot: &Plot<'_>, sphere: usize) -> Drawn {
+    fn draw_sphere(&self, sheet: &FigureSheet<'_>, plot: &Plot<'_>, sphere: usize) -> Drawn {
         let color = palette::DISTINCT[sphere % palette::DISTINCT.len()];
         let last = self.record.trajectory.len() - 1;
         let radius = 1e3 * self.record.radius[sphere];
@@ -261,7 +265,12 @@ fn distance(point: (i32, i32), from: (i32, i32), to: (i32, i32)) -> f64 {
 }
 
 /// An arrow around a centre, counter-clockwise or clockwise.
-fn draw_turn(sheet: &Sheet<'_>, centre: (i32, i32), radius: f64, counter_clockwise: bool) -> Drawn {
+fn draw_turn(
+    sheet: &FigureSheet<'_>,
+    centre: (i32, i32),
+    radius: f64,
+    counter_clockwise: bool,
+) -> Drawn {
     const PARTS: i32 = 40;
     let sense = if counter_clockwise { 1.0 } else { -1.0 };
     let at = |degrees: f64, radius: f64| {

@@ -145,7 +145,7 @@ fn places(record: &RunRecord, view: View) -> impl Iterator<Item = ((f64, f64), f
 }
 
 /// A wall as it is seen.
-enum Wall {
+enum SeenWall {
     /// The tank from above, of that radius.
     Circle(f64),
     /// A line across, at that height.
@@ -154,30 +154,30 @@ enum Wall {
     Upright(f64),
 }
 
-fn walls(record: &RunRecord, view: View) -> Vec<Wall> {
+fn walls(record: &RunRecord, view: View) -> Vec<SeenWall> {
     let Some(tank) = &record.scene.tank else {
         return Vec::new();
     };
     let reach = tank.reach().map(|reach| reach.map(|reach| MILLI * reach));
-    let floor = tank.floor.map(|floor| Wall::Level(MILLI * floor));
-    let sides = |axis: usize, side: fn(f64) -> Wall| {
+    let floor = tank.floor.map(|floor| SeenWall::Level(MILLI * floor));
+    let sides = |axis: usize, side: fn(f64) -> SeenWall| {
         let reach = reach[axis].into_iter();
         reach.flat_map(move |reach| [side(-reach), side(reach)])
     };
     match view {
         View::Plane { up: 1, .. } if tank.radius.is_some() => {
-            reach[0].map(Wall::Circle).into_iter().collect()
+            reach[0].map(SeenWall::Circle).into_iter().collect()
         }
-        View::Plane { across, up: 1 } => sides(across, Wall::Upright)
-            .chain(sides(1, Wall::Level))
+        View::Plane { across, up: 1 } => sides(across, SeenWall::Upright)
+            .chain(sides(1, SeenWall::Level))
             .collect(),
-        View::Plane { across, .. } => sides(across, Wall::Upright).chain(floor).collect(),
+        View::Plane { across, .. } => sides(across, SeenWall::Upright).chain(floor).collect(),
         View::Time { up: 2 } => floor.into_iter().collect(),
-        View::Time { up } => sides(up, Wall::Level).collect(),
+        View::Time { up } => sides(up, SeenWall::Level).collect(),
     }
 }
 
-impl Wall {
+impl SeenWall {
     /// Whether something in these ranges is about to touch it.
     fn is_near(&self, [across, up]: &[(f64, f64); 2], largest: f64) -> bool {
         let near =

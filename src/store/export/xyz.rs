@@ -78,8 +78,8 @@ fn write_sphere(
     Ok(())
 }
 
-/// Writes the fixed spheres of a record's scene as one block; `door` is 1 of those of the door, 0
-/// of the walls.
+/// Writes the fixed spheres of a record's scene as one block; `door` is 1 for
+/// spheres of the door, 0 for the walls.
 ///
 /// # Errors
 /// [`StoreError::DiskFull`] or [`StoreError::Write`].

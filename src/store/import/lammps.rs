@@ -1,6 +1,6 @@
 //! Text dumps of LAMMPS (`dump atom` and `dump custom`), of which LIGGGHTS writes the same.
 
-use super::Lines;
+use super::FileLines;
 use crate::replay::{StateTime, WrittenState};
 use crate::store::StoreError;
 
@@ -8,7 +8,10 @@ use crate::store::StoreError;
 pub(super) const ITEM: &str = "ITEM:";
 
 /// A state whose first line is given.
-pub(super) fn state<'a>(first: &'a str, lines: &mut Lines<'a>) -> Result<WrittenState, StoreError> {
+pub(super) fn state<'a>(
+    first: &'a str,
+    lines: &mut FileLines<'a>,
+) -> Result<WrittenState, StoreError> {
     let (mut moment, mut count, mut bounds) = (None, None, Vec::new());
     let mut is_oblique = false;
     let mut line = first;
@@ -46,7 +49,7 @@ pub(super) fn state<'a>(first: &'a str, lines: &mut Lines<'a>) -> Result<Written
 }
 
 /// The ends of the box along an axis.
-fn extent(lines: &mut Lines<'_>) -> Result<[f64; 2], StoreError> {
+fn extent(lines: &mut FileLines<'_>) -> Result<[f64; 2], StoreError> {
     let line = lines.next("the bounds of the box")?;
     let mut words = line.split_whitespace();
     let mut end = || lines.number(words.next().unwrap_or_default(), "a bound of the box");
@@ -58,7 +61,7 @@ fn spheres(
     columns: &str,
     count: usize,
     bounds: Option<&[[f64; 2]]>,
-    lines: &mut Lines<'_>,
+    lines: &mut FileLines<'_>,
 ) -> Result<Vec<(u64, [f64; 3])>, StoreError> {
     let names: Vec<&str> = columns.split_whitespace().collect();
     let find = |name: &str| names.iter().position(|it| *it == name);

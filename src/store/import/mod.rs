@@ -1,12 +1,8 @@
 //! States of spheres that other programs wrote: one file per format.
 
+mod collection;
 mod lammps;
-mod series;
-mod vtk_bytes;
-mod vtk_legacy;
-mod vtk_numbers;
-mod vtk_reader;
-mod vtk_xml;
+mod vtk;
 mod xyz;
 
 use super::StoreError;
@@ -15,19 +11,19 @@ use crate::replay::WrittenState;
 use std::path::Path;
 
 /// Reads the states of a text dump of LAMMPS (`ITEM: TIMESTEP`), of an extended XYZ file, or of the
-/// files of VTK that a collection (`.pvd`) or a series of ParaView (`.series`) names.
+/// files of VTK that a collection (`.pvd`) names.
 ///
 /// # Errors
-/// [`StoreError::Read`] or [`StoreError::ReadNamed`]; [`StoreError::Text`] with the line at fault,
-/// or [`StoreError::Array`]; [`StoreError::OneState`] for a file of VTK, which has no time.
+/// [`StoreError::Read`], with the line at fault.
 pub fn read_states(path: &Path) -> Result<Vec<WrittenState>, StoreError> {
     let end = path.extension().unwrap_or_default().to_string_lossy();
     match &end.to_ascii_lowercase()[..] {
-        "pvd" => series::collection(path),
-        "series" => series::series(path),
-        "vtk" | "vtp" | "vtu" => Err(StoreError::OneState {
-            path: path.to_owned(),
-        }),
+        "pvd" => collection::states(path),
+        "series" | "vtk" | "vtp" | "vtu" => Err(StoreError::Read(format!(
+            "{}: files of VTK do not say their time, and series of ParaView cannot be read; give \
+             a collection (`.pvd`) that names the files of all times",
+            path.display()
+        ))),
         _ => text_states(path),
     }
 }
@@ -35,7 +31,7 @@ pub fn read_states(path: &Path) -> Result<Vec<WrittenState>, StoreError> {
 /// The states of a dump of LAMMPS or of an extended XYZ file.
 fn text_states(path: &Path) -> Result<Vec<WrittenState>, StoreError> {
     let content = text::read(path).map_err(|error| StoreError::reading(path, error))?;
-    let mut lines = Lines {
+    let mut lines = FileLines {
         path,
         lines: content.lines(),
         number: 0,
@@ -61,14 +57,14 @@ fn line_at(text: &str, place: usize) -> u64 {
 }
 
 /// The lines of a file, counted.
-struct Lines<'a> {
+struct FileLines<'a> {
     path: &'a Path,
     lines: std::str::Lines<'a>,
     /// Of the latest line, from 1.
     number: u64,
 }
 
-impl<'a> Lines<'a> {
+impl<'a> FileLines<'a> {
     fn next(&mut self, wanted: &str) -> Result<&'a str, StoreError> {
         self.number += 1;
         let line = self.lines.next();

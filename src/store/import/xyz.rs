@@ -1,11 +1,11 @@
 //! Extended XYZ: the number of spheres, a line with `Properties=` and `Time=`, a line per sphere.
 
-use super::Lines;
+use super::FileLines;
 use crate::replay::{StateTime, WrittenState};
 use crate::store::StoreError;
 
 /// Where a row has what is read of it.
-struct Columns {
+struct XyzColumns {
     place: usize,
     number: Option<usize>,
     /// How many words a row has, if the file says it.
@@ -13,7 +13,7 @@ struct Columns {
 }
 
 /// A state whose first line is given.
-pub(super) fn state(first: &str, lines: &mut Lines<'_>) -> Result<WrittenState, StoreError> {
+pub(super) fn state(first: &str, lines: &mut FileLines<'_>) -> Result<WrittenState, StoreError> {
     let count: usize = lines.number(first, "a number of spheres")?;
     let head = lines.next("the line with `Time=`")?;
     let time = key(head, "Time").or_else(|| key(head, "time"));
@@ -50,9 +50,9 @@ fn key<'a>(head: &'a str, name: &str) -> Option<&'a str> {
 
 /// By the list of properties: name, kind and number of columns of each. Without one, the places
 /// stand behind the species.
-fn columns(head: &str) -> Result<Columns, String> {
+fn columns(head: &str) -> Result<XyzColumns, String> {
     let Some(properties) = key(head, "Properties") else {
-        return Ok(Columns {
+        return Ok(XyzColumns {
             place: 1,
             number: None,
             all: None,
@@ -77,7 +77,7 @@ fn columns(head: &str) -> Result<Columns, String> {
         }
         column += width;
     }
-    Ok(Columns {
+    Ok(XyzColumns {
         place: place.ok_or("`Properties` has no `pos:R:3`, the centres")?,
         number,
         all: Some(column),

@@ -143,12 +143,12 @@ fn a_malformed_table_is_refused_with_line_and_reason() {
         (
             "settle_change",
             "change",
-            "labels.csv:1: the header line is not that of a table of labels",
+            "labels.csv:1: this is not the header line of a table of labels",
         ),
         (
             "id,",
             "",
-            "labels.csv:1: the header line is not that of a table of labels",
+            "labels.csv:1: this is not the header line of a table of labels",
         ),
     ] {
         let bad = good.replacen(from, to, 1);

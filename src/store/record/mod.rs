@@ -106,7 +106,7 @@ fn write(content: FileBuilder, path: &Path) -> Result<(), StoreError> {
 ///
 /// # Errors
 /// [`StoreError::Read`]; [`StoreError::Damaged`] if any bit is not as it was written;
-/// [`StoreError::NotARecord`] or [`StoreError::Format`] if it is another kind of file.
+/// [`StoreError::NotARecord`] if it is another kind of file.
 pub fn read_record(path: &Path) -> Result<RunRecord, StoreError> {
     read::Reader::open(path)?.record()
 }

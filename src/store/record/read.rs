@@ -45,12 +45,13 @@ impl<'a> Reader<'a> {
         }
         match self.whole("format_version")? {
             FORMAT_VERSION => Ok(()),
-            found => Err(StoreError::Format {
-                path: self.path.to_owned(),
-                found,
-                known: FORMAT_VERSION,
-                program: self.text("program_version").unwrap_or("unknown").to_owned(),
-            }),
+            found => Err(StoreError::Read(format!(
+                "{} has record format {found} (written by phase {}), but this program reads \
+                 format {FORMAT_VERSION}; use that version, or delete the record and run the \
+                 sweep again",
+                self.path.display(),
+                self.text("program_version").unwrap_or("unknown")
+            ))),
         }
     }
 

@@ -121,7 +121,7 @@ fn start(group: &mut GroupBuilder, spheres: &[StartSphere]) -> Result<(), String
         return Err(NOT_FINITE.to_owned());
     }
     type Part = fn(&StartSphere) -> &[f64; 3];
-    let parts: [(Quantity<'_>, Part); 3] = [
+    let parts: [(StoredQuantity<'_>, Part); 3] = [
         (POSITION, |it| &it.position),
         (VELOCITY, |it| &it.velocity),
         (SPIN, |it| &it.spin),
@@ -133,21 +133,21 @@ fn start(group: &mut GroupBuilder, spheres: &[StartSphere]) -> Result<(), String
     let radius = |it: &StartSphere| it.radius.unwrap_or(f64::NAN);
     let values: Vec<f64> = spheres.iter().map(radius).collect();
     let description = "Radius of every sphere; not a number for that of the scene";
-    let quantity = Quantity("radius", "m", description);
+    let quantity = StoredQuantity("radius", "m", description);
     dataset(group, quantity, &[spheres.len()], &values);
     Ok(())
 }
 
 /// Name, unit and description of a dataset.
-struct Quantity<'a>(&'a str, &'a str, &'a str);
+struct StoredQuantity<'a>(&'a str, &'a str, &'a str);
 
-const POSITION: Quantity<'_> = Quantity("position", "m", "Centres x, y, z");
-const VELOCITY: Quantity<'_> = Quantity("velocity", "m/s", "Velocities x, y, z");
-const SPIN: Quantity<'_> = Quantity("spin", "rad/s", "Spins x, y, z");
+const POSITION: StoredQuantity<'_> = StoredQuantity("position", "m", "Centres x, y, z");
+const VELOCITY: StoredQuantity<'_> = StoredQuantity("velocity", "m/s", "Velocities x, y, z");
+const SPIN: StoredQuantity<'_> = StoredQuantity("spin", "rad/s", "Spins x, y, z");
 
 fn dataset<T: H5Element>(
     group: &mut GroupBuilder,
-    Quantity(name, unit, description): Quantity<'_>,
+    StoredQuantity(name, unit, description): StoredQuantity<'_>,
     shape: &[usize],
     values: &[T],
 ) {
@@ -182,22 +182,22 @@ fn chunk(shape: &[u64], size: usize) -> Vec<u64> {
 
 fn spheres(group: &mut GroupBuilder, record: &RunRecord) {
     let count = [record.radius.len()];
-    let quantity = Quantity("radius", "m", "Radius of every sphere");
+    let quantity = StoredQuantity("radius", "m", "Radius of every sphere");
     dataset(group, quantity, &count, &record.radius);
     let count = [record.mass.len()];
-    let quantity = Quantity("mass", "kg", "Mass of every sphere");
+    let quantity = StoredQuantity("mass", "kg", "Mass of every sphere");
     dataset(group, quantity, &count, &record.mass);
 }
 
 fn observations(group: &mut GroupBuilder, observations: &Observations) {
     let frames = [observations.frames()];
-    let quantity = Quantity("time", "s", "Time of each frame");
+    let quantity = StoredQuantity("time", "s", "Time of each frame");
     dataset(group, quantity, &frames, &observations.time);
     for series in observations.scalars() {
-        let quantity = Quantity(series.name, series.unit, series.description);
+        let quantity = StoredQuantity(series.name, series.unit, series.description);
         dataset(group, quantity, &frames, series.values);
     }
-    let quantity = Quantity(
+    let quantity = StoredQuantity(
         "profile",
         "m",
         "Height of the highest centre in each radial bin, inner bin first; \
@@ -206,7 +206,7 @@ fn observations(group: &mut GroupBuilder, observations: &Observations) {
     let profile = observations.profile.as_standard_layout();
     let values = profile.as_slice().expect("standard layout");
     dataset(group, quantity, profile.shape(), values);
-    let quantity = Quantity(
+    let quantity = StoredQuantity(
         "rising",
         "1",
         "Number of spheres within a radius fraction that rose faster than the mean by a speed. \
@@ -239,11 +239,11 @@ fn check_observations(observations: &Observations) -> Result<(), String> {
 
 fn snapshots(group: &mut GroupBuilder, snapshots: &[Snapshot]) -> Result<(), String> {
     let time: Vec<f64> = snapshots.iter().map(|snapshot| snapshot.time).collect();
-    let quantity = Quantity("time", "s", "Time of each snapshot");
+    let quantity = StoredQuantity("time", "s", "Time of each snapshot");
     dataset(group, quantity, &[snapshots.len()], &time);
 
     type Part = fn(&Snapshot) -> &Array2<f64>;
-    let parts: [(Quantity<'_>, Part); 3] = [
+    let parts: [(StoredQuantity<'_>, Part); 3] = [
         (POSITION, |at| &at.position),
         (VELOCITY, |at| &at.velocity),
         (SPIN, |at| &at.spin),

@@ -153,7 +153,10 @@ pub fn read_runs(comparison: &Comparison, path: &Path) -> Result<KnownRuns, Stor
             runs.rows.push(row);
         }
     }
-    let others = runs.others.iter().filter_map(|line| line.iter().next_back());
+    let others = runs
+        .others
+        .iter()
+        .filter_map(|line| line.iter().next_back());
     known.extend(others.map(str::to_owned));
     runs.makers.retain(|id, _| known.contains(id));
     Ok(runs)

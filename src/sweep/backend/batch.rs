@@ -141,7 +141,7 @@ impl<'a> Batch<'a> {
         let Some(place) = self.places.get(job.id.as_str()).copied() else {
             return Claim::Refused;
         };
-        let claim = |lease: Option<Lease>| Permit {
+        let permit = |lease: Option<Lease>| Permit {
             batch: self,
             job,
             place,
@@ -152,7 +152,7 @@ impl<'a> Batch<'a> {
             return Claim::Refused;
         }
         match self.results.claim(job) {
-            Ok(Claim::Granted(lease)) => return Claim::Granted(claim(lease)),
+            Ok(Claim::Granted(lease)) => return Claim::Granted(permit(lease)),
             Ok(Claim::Elsewhere) => {
                 self.mark(place, JobState::Claimed, JobState::Elsewhere);
                 self.tell(Event::Elsewhere(job));
@@ -164,8 +164,8 @@ impl<'a> Batch<'a> {
                 self.tell(Event::Made(job));
                 return Claim::Made;
             }
-            Ok(Claim::Refused) => drop(claim(None)),
-            Err(error) => claim(None).fail_to_store(error),
+            Ok(Claim::Refused) => drop(permit(None)),
+            Err(error) => permit(None).fail_to_store(error),
         }
         Claim::Refused
     }

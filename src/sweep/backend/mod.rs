@@ -27,16 +27,16 @@ pub trait Backend: Sync {
     /// - It [claims](Batch::claim) each job. The permit that it gets is kept while the job runs,
     ///   and takes its end: a record ([`Permit::finish`]) or why there is none ([`Permit::fail`]).
     ///   A permit that is dropped before leaves the job to whoever claims it next.
-    /// - Once [`Batch::is_over`] is true no more jobs are begun; `claim` grants none. Jobs under way
-    ///   may go on to their end, and still count.
+    /// - Once [`Batch::is_over`] is true no more jobs are begun; `claim` grants none. Jobs under
+    ///   way may go on to their end, and still count.
     /// - Once [`Batch::is_stopped`] is true, which implies the former, jobs under way are given up
     ///   within a second: they leave a [checkpoint](Batch::checkpoints) if they can, and their
     ///   permits are dropped. It is up to the backend to look, ten times a second or so.
     /// - It may be called again with the jobs that another process had begun and did not end.
     ///
     /// Another program gets a job as text: `toml::to_string(&job.scene)` is a scene file, which
-    /// `phase run` takes. Child processes get the Ctrl-C of a terminal, too; one that is to be ended
-    /// by the backend alone needs a process group of its own (`CommandExt::process_group(0)`).
+    /// `phase run` takes. Child processes get the Ctrl-C of a terminal, too; one that the backend
+    /// alone may end needs a process group of its own (`CommandExt::process_group(0)`).
     ///
     /// A panic ends the batch like an error, with its message in the report; one that should fail
     /// just its job is caught by the backend.

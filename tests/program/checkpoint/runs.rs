@@ -50,7 +50,10 @@ fn a_run_from_the_beginning_replaces_a_checkpoint_only_with_one_of_its_own_time(
     let stderr = child.stderr.take().unwrap();
     let mut lines = BufReader::new(stderr).lines().map(Result::unwrap);
     let line = lines.find(|line| line.contains("run.checkpoint")).unwrap();
-    assert!(line.contains("run.checkpoint is there"), "{line}");
+    assert!(
+        line.contains("replaces the checkpoint run.checkpoint"),
+        "{line}"
+    );
     assert!(line.contains("--resume would continue"), "{line}");
     signal(&child, "INT");
     end(child).code(130);

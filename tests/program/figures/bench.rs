@@ -133,8 +133,6 @@ impl Tank {
             record: &record,
             points: &points,
             times: None,
-            captions: &[],
-            data: &[],
             program: &Program::current(),
         };
         plot::draw(name, &source)

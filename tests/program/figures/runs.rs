@@ -200,8 +200,6 @@ fn a_missing_record_is_named() {
         record: &|id| read_record(&Path::new("nowhere").join(id)),
         points: &[parse_point("radius=0.002,omega=2,seed=2").unwrap()],
         times: None,
-        captions: &[],
-        data: &[],
         program: &Program::current(),
     };
     let error = plot::draw("energies", &source).unwrap_err();

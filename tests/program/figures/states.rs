@@ -88,7 +88,7 @@ fn flight(spin: f64) -> RunRecord {
 #[test]
 fn tracks_of_many_spheres_are_thinned_and_arrows_named_if_there_are_any() {
     let draw = |spin: f64| {
-        let svg = plot::draw_tracks(&flight(spin)).unwrap();
+        let svg = plot::draw("tracks", plot::RecordSet::of(&[flight(spin)])).unwrap();
         String::from_utf8(svg.to_svg_bytes()).unwrap()
     };
     let slow = draw(1e-3);

@@ -190,7 +190,7 @@ fn several_runs_stand_beside_each_other() {
     place
         .phase(&["view", "silo.h5", "tank.h5", "--out", "x.png"])
         .code(2)
-        .complains("draw them apart");
+        .complains("draw them in separate pictures");
     // Tanks stand beside each other, too.
     place
         .phase(&[

@@ -162,7 +162,7 @@ fn pictures_are_not_higher_than_they_may_be() {
     place
         .phase(&["view", "run.h5", "--animate", "run.gif", "--width", "2000"])
         .code(0)
-        .complains("draws ")
+        .complains("drawing ")
         .complains("pixels wide instead of 2000: an animation is at most 720 pixels high");
 }
 

@@ -101,7 +101,7 @@ fn labels_that_cannot_be_read_are_not_forgotten() {
         (labels.replace(",pinned,", ",weird,"), "weird"),
         (
             format!("{labels}{second}\n"),
-            "labels.csv:16: a second row of run",
+            "labels.csv:16: duplicate row of run",
         ),
     ] {
         place.write("results/labels.csv", &damaged);

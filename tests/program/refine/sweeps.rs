@@ -132,7 +132,7 @@ fn the_status_says_how_wide_borders_are() {
         .says("14 jobs, 14 done, 0 failed, 0 left")
         .says("refined    14 runs of at most 14, ")
         .says("ended      the budget of 14 runs is spent")
-        .says("to pinned: 95 % band over ");
+        .says("to pinned: 95 % band covers ");
     place
         .phase(&["check", "tiny.toml", "--no-trial"])
         .code(0)
@@ -277,7 +277,7 @@ fn refining_ends_when_borders_are_as_narrow_as_wanted() {
     let said = bare(&place, &text, "results", &[]);
     assert!(said.contains("6 jobs: 6 run now"), "{said}");
     assert!(
-        said.contains("the bands of all borders are as narrow as wanted (100.0 %)"),
+        said.contains("the bands of all borders are as narrow as requested (100.0 %)"),
         "{said}"
     );
 }

@@ -4,7 +4,7 @@ use super::table;
 use crate::cli::exit::Failure;
 use crate::cli::runs;
 use phase::classify::{DRAINAGE, Family, Measure, Sieves, classify};
-use phase::compare::{Comparison, Row};
+use phase::compare::{ComparisonRow, DrainageComparison};
 use phase::plot;
 use phase::record::RunRecord;
 use phase::scene::Units;
@@ -114,7 +114,7 @@ fn of_drainages(
     records: &[&RunRecord],
     times: Option<[f64; 2]>,
 ) -> Result<Vec<Column>, Failure> {
-    let comparison = Comparison::new(records, times).map_err(|(place, needs)| {
+    let comparison = DrainageComparison::new(records, times).map_err(|(place, needs)| {
         let file = paths[place].display();
         Failure::refused(format_args!(
             "{file}: a comparison of drainages needs {needs}"
@@ -122,7 +122,7 @@ fn of_drainages(
     })?;
     let named = names(records, paths).into_iter().enumerate();
     let columns = named.map(|(run, name)| {
-        let value = |row: &Row| ([row.name.clone(), row.unit.clone()], row.values[run]);
+        let value = |row: &ComparisonRow| ([row.name.clone(), row.unit.clone()], row.values[run]);
         Column {
             name,
             values: comparison.rows.iter().map(value).collect(),
@@ -187,7 +187,7 @@ fn names(records: &[&RunRecord], paths: &[&PathBuf]) -> Vec<String> {
 }
 
 /// The columns as rows, one for each quantity that any of them has.
-pub(super) fn rows(columns: &[Column]) -> Vec<Row> {
+pub(super) fn rows(columns: &[Column]) -> Vec<ComparisonRow> {
     let mut quantities: Vec<&[String; 2]> = Vec::new();
     for (quantity, _) in columns.iter().flat_map(|it| &it.values) {
         if !quantities.contains(&quantity) {
@@ -198,7 +198,7 @@ pub(super) fn rows(columns: &[Column]) -> Vec<Row> {
         let own = column.values.iter().find(|(it, _)| it == quantity);
         own.and_then(|(_, value)| *value)
     };
-    let row = |quantity: &[String; 2]| Row {
+    let row = |quantity: &[String; 2]| ComparisonRow {
         name: quantity[0].clone(),
         unit: quantity[1].clone(),
         values: columns.iter().map(|it| value(it, quantity)).collect(),

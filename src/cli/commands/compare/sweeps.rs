@@ -5,7 +5,7 @@ use crate::cli::columns::{in_columns, written};
 use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
 use phase::classify::{Agreement, MeasureDifference};
-use phase::compare::Row;
+use phase::compare::ComparisonRow;
 use phase::statistics::Estimate;
 use phase::store;
 use phase::sweep::Folder;
@@ -101,7 +101,7 @@ fn line(measure: &MeasureDifference) -> [String; 4] {
 }
 
 /// The share of equal labels, and the measures.
-fn rows(agreement: &Agreement) -> Vec<Row> {
+fn rows(agreement: &Agreement) -> Vec<ComparisonRow> {
     let exact = |value: f64| {
         Some(Estimate {
             value,
@@ -109,12 +109,12 @@ fn rows(agreement: &Agreement) -> Vec<Row> {
         })
     };
     let (share, _) = agreement.share();
-    let labels = Row {
+    let labels = ComparisonRow {
         name: "share of equal labels".to_owned(),
         unit: String::new(),
         values: vec![exact(1.0), exact(share)],
     };
-    let measure = |it: &MeasureDifference| Row {
+    let measure = |it: &MeasureDifference| ComparisonRow {
         name: it.name.to_owned(),
         unit: it.unit.to_owned(),
         values: it.means.map(exact).to_vec(),
@@ -125,7 +125,7 @@ fn rows(agreement: &Agreement) -> Vec<Row> {
 
 impl Entry {
     /// The same with the interval of paired differences.
-    fn of_pairs(row: &Row, agreement: &Agreement) -> Self {
+    fn of_pairs(row: &ComparisonRow, agreement: &Agreement) -> Self {
         let own = agreement.measures.iter().find(|it| it.name == row.name);
         let half_width = own.map(|it| it.difference.half_width);
         Self {

@@ -2,7 +2,7 @@
 
 use super::inputs::Column;
 use crate::cli::exit::Failure;
-use phase::compare::Row;
+use phase::compare::ComparisonRow;
 use phase::statistics::Estimate;
 use phase::store;
 use std::path::Path;
@@ -24,12 +24,12 @@ pub(super) fn check(names: &[String]) -> Result<(), Failure> {
     }
 }
 
-pub(super) fn write(path: &Path, rows: &[Row], names: &[String]) -> Result<(), Failure> {
+pub(super) fn write(path: &Path, rows: &[ComparisonRow], names: &[String]) -> Result<(), Failure> {
     let text = written(rows, names).map_err(Failure::failed)?;
     Ok(store::write_atomic(path, &text)?)
 }
 
-fn written(rows: &[Row], names: &[String]) -> Result<Vec<u8>, csv::Error> {
+fn written(rows: &[ComparisonRow], names: &[String]) -> Result<Vec<u8>, csv::Error> {
     let mut table = csv::Writer::from_writer(Vec::new());
     table.write_record(COLUMNS)?;
     let number = |value: f64| match value.is_finite() {

@@ -134,8 +134,6 @@ fn print_fits(
         record: &|id| folder.read_record(id),
         points: &[],
         times: None,
-        captions: &[],
-        data: &[],
         program: &program,
     });
     let entries = lines

@@ -6,7 +6,7 @@ use crate::cli::exit::Failure;
 use phase::measure::Layers;
 use phase::observe::Snapshot;
 use phase::record::RunRecord;
-use phase::render::{ColorBy, Image, Scenery, Sheet, Sides, Stage};
+use phase::render::{ColorBy, Image, PictureSheet, Scenery, Sides, Stage};
 use phase::sweep::work;
 
 /// Greatest height of the view from the side, over its width.
@@ -39,7 +39,7 @@ impl Run<'_> {
 /// What all panels have in common, and the sheet of each run.
 pub(super) struct Sheets<'a> {
     runs: &'a [Run<'a>],
-    sheets: Vec<Sheet>,
+    sheets: Vec<PictureSheet>,
 }
 
 impl<'a> Sheets<'a> {
@@ -64,7 +64,7 @@ impl<'a> Sheets<'a> {
             Color::Layer | Color::PackingFraction | Color::None => ColorBy::Nothing,
         };
         let color = |run| own_color(run, arguments.color).unwrap_or_else(|| color.clone());
-        let mut sheets: Vec<Sheet> = runs.iter().map(|run| sheet(run, color(run))).collect();
+        let mut sheets: Vec<PictureSheet> = runs.iter().map(|run| sheet(run, color(run))).collect();
         if sheets.iter().any(|it| it.flat.is_some()) && sheets.iter().any(|it| it.flat.is_none()) {
             return Err(Failure::refused(
                 "discs are drawn flat, spheres from two sides: draw them in separate pictures",
@@ -227,11 +227,11 @@ fn own_color(run: &Run<'_>, color: Color) -> Option<ColorBy> {
 }
 
 /// The sheet of a run, without a title.
-fn sheet(run: &Run<'_>, color: ColorBy) -> Sheet {
+fn sheet(run: &Run<'_>, color: ColorBy) -> PictureSheet {
     let record = run.record;
     let flat = Scenery::if_flat(&record.scene, &record.milestones);
     let stage = Stage::of_scene(&record.scene).around(run.shown.iter().copied(), &record.radius);
-    Sheet {
+    PictureSheet {
         title: Vec::new(),
         radius: record.radius.clone(),
         stage: match &flat {

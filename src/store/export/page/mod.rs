@@ -1,8 +1,8 @@
 //! One page that plays a whole run in a browser: no other file, no network.
 //!
 //! The page (`page.html`) holds the run as JSON and the script (`page.js`) that draws it. Positions
-//! are rounded to a quantum far below what an eye sees, and written as bytes in base64; what the
-//! bytes mean is told in `bytes.rs`.
+//! are rounded to a quantum far below what an eye sees, and written as bytes in base64; `bytes.rs`
+//! says what the bytes mean.
 
 mod bytes;
 
@@ -24,9 +24,9 @@ pub const PAGE_SIGNATURE: &[u8] = b"<!doctype html>\n<!-- phase: a run -->\n";
 /// The quantum is at most this share of the least radius.
 const FINENESS: f64 = 1.0 / 300.0;
 
-/// What the script is told.
+/// What the script reads.
 #[derive(Serialize)]
-struct Run {
+struct PageRun {
     title: String,
     /// What is seen: least x and z, largest x and z (m).
     window: [f64; 4],
@@ -83,7 +83,7 @@ pub fn write_page(record: &RunRecord, states: &[&Snapshot], path: &Path) -> Resu
     write_atomic(path, &[PAGE_SIGNATURE, page.as_bytes()].concat())
 }
 
-fn describe(record: &RunRecord, states: &[&Snapshot]) -> Run {
+fn describe(record: &RunRecord, states: &[&Snapshot]) -> PageRun {
     let scene = &record.scene;
     let scenery = Scenery::new(scene, &record.milestones);
     let window = window(record, &scenery, states);
@@ -104,7 +104,7 @@ fn describe(record: &RunRecord, states: &[&Snapshot]) -> Run {
         spheres.iter().map(circle).collect()
     };
     let color = |color: Rgb| flat::hex(color);
-    Run {
+    PageRun {
         title: scene.title.clone().unwrap_or_else(|| "A run".to_owned()),
         window: joined(&window),
         colors: Colors {
