@@ -279,3 +279,41 @@ fn the_impulse_of_spin_friction_is_held_and_said() {
     let refused = place.phase(&["check", "auto.toml", "--no-trial"]).code(2);
     refused.complains("another step is another friction");
 }
+
+/// No search changes the motion, so that runs of all of them have one identity.
+#[test]
+fn steps_of_each_search_are_timed_by_themselves() {
+    let place = Workplace::new();
+    let study = r#"
+study = "accuracy"
+step_time = ["count", "length"]
+base.set = { neighbours = { search = "cells", length = 0.02 } }
+seeds.count = 3
+
+[[axis]]
+key = "spheres.count"
+values = [4, 8]
+
+[[variant]]
+name = "all pairs"
+set = { neighbours = { search = "all-pairs" } }
+
+[[ladder]]
+key = "neighbours.length"
+values = [0.01, 0.04]
+"#;
+    place.write("times.toml", &format!("{study}{SCENE}"));
+    place
+        .phase(&["study", "times.toml"])
+        .code(0)
+        .says("24 runs: 24 made now");
+    for (x, line) in [("count", "all pairs"), ("length", "count = 4")] {
+        let figure = place.read(&format!("results/accuracy/times/step-time-{x}.svg"));
+        let texts = crate::support::texts(&figure);
+        assert!(texts.iter().any(|text| text.contains(line)), "{texts:?}");
+    }
+    place
+        .phase(&["study", "times.toml", "--no-plot"])
+        .code(0)
+        .says("24 runs: 0 made now");
+}

@@ -161,8 +161,11 @@ fn comparison(
             Measurement::Motion(times.clone())
         }
     };
-    Comparison::new(settings, reference, 0, measurement)
-        .map_err(|error| document.refuse(&[Problem::new("", error.to_string())]))
+    let comparison = match file.step_time.as_slice() {
+        [] => Comparison::new(settings, reference, 0, measurement),
+        _ => Comparison::timed(settings, reference, 0, measurement),
+    };
+    comparison.map_err(|error| document.refuse(&[Problem::new("", error.to_string())]))
 }
 
 /// What the scene must have for the errors that are asked for.

@@ -109,6 +109,39 @@ impl Comparison {
         ))
     }
 
+    /// The same with runs that no two settings share, so that each is timed by itself: what changes
+    /// no motion, such as the search for neighbours, changes no identity of a run.
+    ///
+    /// # Errors
+    /// Those of [`new`](Self::new).
+    pub(super) fn timed(
+        settings: Vec<Setting>,
+        reference: usize,
+        as_it_is: usize,
+        measurement: Measurement,
+    ) -> Result<Self, PointError> {
+        let own = |setting: &Setting| {
+            let jobs = setting.sweep.jobs()?.into_iter();
+            let jobs = jobs.map(|job| {
+                let text = format!("{} timed with {}", job.id, setting.name);
+                let id = blake3::hash(text.as_bytes()).to_hex()[..job.id.len()].to_owned();
+                Job { id, ..job }
+            });
+            Ok(jobs.collect())
+        };
+        let jobs = settings
+            .iter()
+            .map(own)
+            .collect::<Result<_, PointError>>()?;
+        Ok(Self::of_jobs(
+            settings,
+            jobs,
+            reference,
+            as_it_is,
+            measurement,
+        ))
+    }
+
     /// The same with jobs that are there, of each setting its own, point by point.
     pub(super) fn of_jobs(
         mut settings: Vec<Setting>,
