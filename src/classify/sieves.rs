@@ -1,9 +1,19 @@
 //! The list of all sieves.
 
-use super::drainage::{BlockedSieve, DrainageRun, DrainedSieve, StagnantSieve};
+use super::drainage::blocked::BlockedSieve;
+use super::drainage::drained::DrainedSieve;
+use super::drainage::run::DrainageRun;
+use super::drainage::stagnant::StagnantSieve;
 use super::sieve::{Sieve, SieveOfFamily, Sifted};
-use super::silo::{ArchingSieve, EmptiedSieve, FlowingSieve, Outflow};
-use super::tank::{FluidSieve, PinnedSieve, SettleSieve, SpoutSieve, TankRun};
+use super::silo::arching::ArchingSieve;
+use super::silo::emptied::EmptiedSieve;
+use super::silo::flowing::FlowingSieve;
+use super::silo::outflow::Outflow;
+use super::tank::fluid::FluidSieve;
+use super::tank::pinned::PinnedSieve;
+use super::tank::run::TankRun;
+use super::tank::settle::SettleSieve;
+use super::tank::spout::SpoutSieve;
 use super::{ClassifyError, Family};
 use crate::scene::Scene;
 use schemars::JsonSchema;

@@ -1,6 +1,5 @@
 //! The engine compiled for a scene's laws of contact and friction.
 
-use super::simulation::DemBuildError;
 use super::system::{Engine, System, SystemSetup};
 use crate::forces::contact::{Contact, ContactKeys, NoContact, NormalLaw, with_keys};
 use crate::forces::friction::{
@@ -8,6 +7,24 @@ use crate::forces::friction::{
 };
 use crate::particles::Particles;
 use crate::scene::Scene;
+use crate::start::StartError;
+
+/// Why a scene cannot be run.
+#[derive(Debug, thiserror::Error)]
+pub enum DemBuildError {
+    /// The spheres cannot be placed.
+    #[error(transparent)]
+    Start(#[from] StartError),
+    /// There is friction but no contact.
+    #[error("friction acts at contacts, but the scene has no contact law")]
+    FrictionWithoutContact,
+    /// The friction law is made for another contact law.
+    #[error("this friction law does not go with this contact law")]
+    LawsDoNotGoTogether,
+    /// There is rolling resistance without friction, or with a friction law without sliding.
+    #[error("rolling resistance needs a friction law with sliding")]
+    RollingWithoutFriction,
+}
 
 /// The engine compiled for the scene's contact and friction. Each pair of laws costs compile time,
 /// so only pairs that go together are here.

@@ -30,9 +30,10 @@ mod work;
 
 pub use barrier::{WallFailure, WeakestWall};
 pub(crate) use check::SAFETY_FACTOR;
+pub use laws::DemBuildError;
 pub use model::Dem;
 pub use overlap::{Overlap, OverlapPartner, Release};
 pub use profile::StepPart;
 pub use simplifications::{Simplification, simplifications};
-pub use simulation::{DemBuildError, DemSimulation};
+pub use simulation::DemSimulation;
 pub use state::SimulationState;

@@ -1,7 +1,7 @@
 //! How deep spheres overlap at the start: each other, fixed spheres, and walls.
 
 use super::neighbours::visit_pairs;
-use super::timestep::fastest_impact;
+use super::timestep::fastest::Fastest;
 use super::walls::{TankWall, Wall};
 use crate::particles::Particles;
 use crate::scene::{Scene, Start};
@@ -158,7 +158,7 @@ pub struct Release {
 impl Release {
     /// Such overlaps of a scene, if there are any.
     pub fn of_scene(scene: &Scene) -> Option<Self> {
-        let impact = fastest_impact(scene);
+        let impact = Fastest::of(scene).impact;
         let mut found: Option<Self> = None;
         visit(scene, |overlap| {
             let is_deep = overlap.depth_in_radii > DEEP;

@@ -2,7 +2,7 @@
 
 use super::frame::of_moving;
 use super::guard::Limits;
-use super::laws::engine;
+use super::laws::{DemBuildError, engine};
 use super::neighbours::VerletList;
 use super::order;
 use super::process::{Feed, Process};
@@ -14,25 +14,8 @@ use crate::particles::vector::Vector;
 use crate::particles::{Particles, Sphere};
 use crate::scene::{Driven, Neighbours, Rolling, Scene, Start};
 use crate::simulation::{Counts, Instability, Milestone};
-use crate::start::{self, StartError};
+use crate::start;
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
-
-/// Why a scene cannot be run.
-#[derive(Debug, thiserror::Error)]
-pub enum DemBuildError {
-    /// The spheres cannot be placed.
-    #[error(transparent)]
-    Start(#[from] StartError),
-    /// There is friction but no contact.
-    #[error("friction acts at contacts, but the scene has no contact law")]
-    FrictionWithoutContact,
-    /// The friction law is made for another contact law.
-    #[error("this friction law does not go with this contact law")]
-    LawsDoNotGoTogether,
-    /// There is rolling resistance without friction, or with a friction law without sliding.
-    #[error("rolling resistance needs a friction law with sliding")]
-    RollingWithoutFriction,
-}
 
 /// First skin of a neighbour list for contacts, in radii of the largest sphere. The list then holds
 /// for many steps and is still short.

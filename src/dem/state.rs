@@ -3,7 +3,7 @@
 use super::DemSimulation;
 use super::process::{Process, ProcessState};
 use super::system::EngineState;
-pub(super) use crate::simulation::StateError;
+use crate::simulation::StateError;
 use serde::{Deserialize, Serialize};
 
 /// The state of a simulation: everything that follows neither from its scene nor from the rest of

@@ -21,10 +21,14 @@ pub struct Figure {
     pub(super) draw: Draw,
 }
 
+type DrawSweep = Box<dyn Fn(&Source<'_>) -> Result<Svg, PlotError> + Send + Sync>;
+
+type DrawRuns = Box<dyn Fn(&Runs<'_>) -> Result<Svg, PlotError> + Send + Sync>;
+
 /// What a figure is drawn from, and how.
 pub(super) enum Draw {
     /// From the labels of a sweep.
-    Sweep(Box<dyn Fn(&Source<'_>) -> Result<Svg, PlotError> + Send + Sync>),
+    Sweep(DrawSweep),
     /// From single runs beside each other: of a sweep, or records.
     Runs {
         /// The runs of a sweep that are shown if none are asked for.
@@ -33,7 +37,7 @@ pub(super) enum Draw {
         takes_times: bool,
         /// Whether it shows curves of other sources with the runs.
         takes_data: bool,
-        draw: Box<dyn Fn(&Runs<'_>) -> Result<Svg, PlotError> + Send + Sync>,
+        draw: DrawRuns,
     },
     /// From one record.
     Record(fn(&RunRecord) -> Result<Svg, PlotError>),

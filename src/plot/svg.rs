@@ -96,7 +96,7 @@ impl Svg {
         let mut elements = String::new();
         for picture in &pictures {
             let file = picture.image.to_png(&[]);
-            let file = file.map_err(|error| PlotError::png(error))?;
+            let file = file.map_err(PlotError::png)?;
             elements.push_str(&canvas::picture(&picture.image, picture.corner, &file));
         }
         if let Some(end) = self.document.rfind("</svg>") {

@@ -225,7 +225,7 @@ fn spheres_that_cannot_be_told_apart_are_refused() {
             "2\nTime=0\nA 0 0 1e-3\nA 0 0 2e-3\n"
                 .repeat(2)
                 .replacen("=0", "=-1", 1),
-            "state 1: its spheres are larger",
+            "state 1: with the scene's radius, its spheres are larger",
         ),
     ] {
         place.write("states.xyz", &states);
@@ -467,7 +467,7 @@ fn records_and_folders_do_not_mix() {
     place
         .phase(&["compare", "run.h5", folder.to_str().unwrap()])
         .code(2)
-        .complains("run.h5: this is no folder");
+        .complains("run.h5: not a folder");
 }
 
 /// Symptom: a panic, or more memory than there is.

@@ -1,10 +1,10 @@
 //! Drainage of a box through an opening in its floor: what leaves, and what stays in the corners.
 
-mod blocked;
-mod drained;
+pub(super) mod blocked;
+pub(super) mod drained;
 mod order;
-mod run;
-mod stagnant;
+pub(super) mod run;
+pub(super) mod stagnant;
 #[cfg(test)]
 mod tests;
 

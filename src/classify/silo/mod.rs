@@ -1,11 +1,11 @@
 //! Silos: grains that leave (Remmers, 2009). Their sieves look at what leaves once the door is
 //! open.
 
-mod arching;
-mod emptied;
-mod flowing;
+pub(super) mod arching;
+pub(super) mod emptied;
+pub(super) mod flowing;
 mod order;
-mod outflow;
+pub(super) mod outflow;
 #[cfg(test)]
 mod synthetic;
 

@@ -3,12 +3,12 @@
 //! A run first has to settle. Each further sieve then looks for its state in what follows, and the
 //! last of them in the order of their list that says yes decides.
 
-mod fluid;
+pub(super) mod fluid;
 mod order;
-mod pinned;
-mod run;
-mod settle;
-mod spout;
+pub(super) mod pinned;
+pub(super) mod run;
+pub(super) mod settle;
+pub(super) mod spout;
 #[cfg(test)]
 mod synthetic;
 

@@ -10,12 +10,12 @@ use crate::cli::exit::{Exit, Failure};
 use crate::cli::folders;
 use crate::cli::options::Measured;
 use crate::cli::runs::check_labels;
-use inputs::Column;
 use phase::compare::{ComparisonRow, are_of_one_run};
 use phase::scene::Units;
 use phase::statistics::Estimate;
 use serde::Serialize;
 use std::path::PathBuf;
+use table::Column;
 
 /// Compare runs: records, or two folders of sweeps.
 ///

@@ -250,7 +250,7 @@ fn run<'a>(
     if arguments.animate.is_none() && arguments.each.is_none() {
         let times = shown
             .iter()
-            .map(|at| words::brief(record, at.time - origin));
+            .map(|at| moment::brief(record, at.time - origin));
         let times: Vec<String> = times.collect();
         let unit = record.scene.units().of_time();
         console.note(format_args!("shows t = {} {unit}", times.join(", ")));

@@ -1,9 +1,17 @@
 //! Cells in a box about all spheres.
 
 use super::Reach;
-use super::search::Storage;
 use crate::particles::Particles;
 use crate::particles::vector::Vector;
+
+/// Where a search reads the spheres of a cell.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Storage {
+    /// In copies, which are in the order of the cells.
+    Copied,
+    /// In place, as spheres are in about that order anyway.
+    InPlace,
+}
 
 /// Spheres sorted by cell.
 #[derive(Clone, Debug, Default)]

@@ -27,8 +27,9 @@ pub use pair::NearPair;
 pub(in crate::dem) use pair::keep_pairs;
 
 use self::anchor::Anchor;
+use self::cells::Storage;
 use self::few::{FEW, FewSpheres};
-use self::search::{Search, Storage};
+use self::search::Search;
 use super::threads::in_parallel;
 use crate::particles::Particles;
 use crate::particles::vector::Vector;

@@ -1,20 +1,11 @@
 //! The search for candidate pairs, before their distances are computed.
 
 use super::Reach;
-use super::cells::BoundedCells;
+use super::cells::{BoundedCells, Storage};
 use super::hash::HashedCells;
 use crate::particles::Particles;
 use crate::particles::vector::Vector;
 use crate::scene::Neighbours;
-
-/// Where a search reads the spheres of a cell.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Storage {
-    /// In copies, which are in the order of the cells.
-    Copied,
-    /// In place, as spheres are in about that order anyway.
-    InPlace,
-}
 
 /// A way to find the spheres that may be near a sphere.
 #[derive(Clone, Debug)]

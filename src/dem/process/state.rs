@@ -2,8 +2,8 @@
 
 use super::leak::PlanePoint;
 use super::{LeakWatch, Process};
-use crate::dem::state::StateError;
 use crate::simulation::Milestone;
+use crate::simulation::StateError;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 

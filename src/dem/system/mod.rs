@@ -40,7 +40,6 @@ use self::wall_contacts::WallContacts;
 use super::guard::Limits;
 use super::neighbours::{Near, NearPair, Purpose, VerletList};
 use super::profile::{self, Profile, StepPart};
-use super::state::StateError;
 use super::walls::TankWall;
 use crate::forces::contact::NormalLaw;
 use crate::forces::effects::PlacedEffect;
@@ -50,6 +49,7 @@ use crate::particles::bodies::Bodies;
 use crate::particles::{Particles, Sphere, retain};
 use crate::scene::{Driven, Integrator, Neighbours};
 use crate::simulation::Instability;
+use crate::simulation::StateError;
 use fearless_simd::Level;
 
 /// What the rest of the program asks of a system, whatever its laws.

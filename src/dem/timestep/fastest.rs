@@ -4,9 +4,9 @@ use super::fall::{Fall, Open};
 use crate::scene::{Driven, Scene, Start, StartSphere, Tank};
 
 /// The fastest speeds (m/s) that a scene lets expect.
-pub(super) struct Fastest {
+pub(in crate::dem) struct Fastest {
     /// Of two partners relative to each other, where they meet.
-    pub(super) impact: f64,
+    pub(in crate::dem) impact: f64,
     /// Of a sphere, wherever it is: on its way to the outlet too.
     pub(super) motion: f64,
     /// Where nothing bounds these speeds; they then follow from what is known.
@@ -14,7 +14,7 @@ pub(super) struct Fastest {
 }
 
 impl Fastest {
-    pub(super) fn of(scene: &Scene) -> Self {
+    pub(in crate::dem) fn of(scene: &Scene) -> Self {
         let start = start_speed(scene);
         let (reach, open_outward) = reach(scene);
         let of_effects = scene.dem.effects.fastest(reach);

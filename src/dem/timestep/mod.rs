@@ -18,7 +18,7 @@
 //! advised, includes this (tests/engine/stability measures both).
 
 mod fall;
-mod fastest;
+pub(super) mod fastest;
 mod standing;
 
 pub use crate::forces::contact::{Impact, LinearImpact, rayleigh_time};

@@ -74,6 +74,9 @@ fn split(bytes: &[u8]) -> (Cow<'_, [u8]>, &[u8]) {
     }
 }
 
+/// Centres of the spheres of a piece, and their numbers if it has them.
+type PieceCentres = (Vec<[f64; 3]>, Option<Vec<u64>>);
+
 /// A file: its kind of numbers, and where they are.
 struct VtkFile<'a> {
     path: &'a Path,
@@ -118,8 +121,7 @@ impl<'a> VtkFile<'a> {
         })
     }
 
-    /// The centres of a piece, and their numbers if it has them.
-    fn points(&self, piece: Node<'_, '_>) -> Result<(Vec<[f64; 3]>, Option<Vec<u64>>), StoreError> {
+    fn points(&self, piece: Node<'_, '_>) -> Result<PieceCentres, StoreError> {
         let count = piece.attribute("NumberOfPoints").unwrap_or_default();
         let count: usize = count.trim().parse().map_err(|_| {
             let reason = format!("`NumberOfPoints` is `{count}`, but must be a whole number");

@@ -320,7 +320,7 @@ fn two_backends_share_a_batch() {
             let permits: Vec<_> = ours.map(|job| permit(batch, job)).collect();
             LocalThreads::new(2).run(batch)?;
             work::each(2, &permits, |permit| {
-                assert!(permit.job().seed.is_multiple_of(2))
+                assert!(permit.job().seed.is_multiple_of(2));
             })
             .map_err(BackendError::new)?;
             for permit in permits {

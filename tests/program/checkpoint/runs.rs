@@ -36,7 +36,7 @@ fn without_a_checkpoint_a_run_starts_from_the_beginning() {
     place.write("scene.toml", &crate::support::scene_file());
     resume(&place, &[])
         .code(0)
-        .complains("there is no checkpoint run.checkpoint; starting from the beginning");
+        .complains("no checkpoint run.checkpoint; starting from the beginning");
     assert!(place.path("run.h5").exists());
     assert!(!place.path("run.checkpoint").exists());
 }

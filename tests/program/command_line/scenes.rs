@@ -148,7 +148,7 @@ fn a_warning_names_overlaps_at_the_start() {
     let words = |name: &str| {
         [
             format!("warning: sphere 1 starts 6.000e-3 m (0.600 radii) deep in {name}"),
-            "faster than any impact that the scene lets expect (0.443 m/s)".to_owned(),
+            "faster than any impact expected in this scene (0.443 m/s)".to_owned(),
         ]
     };
     for (file, words) in [

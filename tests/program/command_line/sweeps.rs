@@ -266,8 +266,8 @@ fn some_runs_too_short_for_a_sieve_are_warned_of() {
     );
     let answer = place.phase(&["check", "tiny.toml", "--no-trial"]).code(0);
     for warning in [
-        "sieve settle, 0.5 s, is longer than 2 of 6 runs, which last 0.4 s at most",
-        "sieve fluid, 1.5 s, is longer than 4 of 6 runs, which last 1 s at most",
+        "sieve settle, 0.5 s, is longer than 2 of 6 runs, which last at most 0.4 s",
+        "sieve fluid, 1.5 s, is longer than 4 of 6 runs, which last at most 1 s",
     ] {
         assert!(answer.stderr.contains(warning), "{answer:#?}");
     }

@@ -1,6 +1,6 @@
 //! What is compared: records, files of other programs, tables of earlier comparisons.
 
-use super::table;
+use super::table::{self, Column};
 use crate::cli::exit::Failure;
 use crate::cli::runs;
 use phase::classify::{DRAINAGE, Family, Measure, Sieves, classify};
@@ -17,14 +17,6 @@ pub(super) enum Input {
     Run(PathBuf, Box<RunRecord>),
     /// The columns of a table.
     Table(Vec<Column>),
-}
-
-/// The numbers of a record: name and unit of each, and its value.
-pub(super) struct Column {
-    pub(super) name: String,
-    pub(super) values: Vec<([String; 2], Option<Estimate>)>,
-    /// First and last time (s) since the opening of what was measured, of the record of a drainage.
-    pub(super) window: Option<[f64; 2]>,
 }
 
 /// Reads all files. Those of other programs take the scene that is given, or that of the first

@@ -1,11 +1,18 @@
 //! Tables of `phase compare` (CSV): one row for each quantity of each record.
 
-use super::inputs::Column;
 use crate::cli::exit::Failure;
 use phase::compare::ComparisonRow;
 use phase::statistics::Estimate;
 use phase::store;
 use std::path::Path;
+
+/// The numbers of a record: name and unit of each, and its value.
+pub(super) struct Column {
+    pub(super) name: String,
+    pub(super) values: Vec<([String; 2], Option<Estimate>)>,
+    /// First and last time (s) since the opening of what was measured, of the record of a drainage.
+    pub(super) window: Option<[f64; 2]>,
+}
 
 /// First column of the table.
 pub(super) const QUANTITY: &str = "quantity";

@@ -1,6 +1,5 @@
 //! Which states a picture shows.
 
-use super::words::brief;
 use crate::cli::exit::Failure;
 use phase::observe::Snapshot;
 use phase::record::{MilestoneKind, RunRecord};
@@ -34,6 +33,21 @@ impl FromStr for Moment {
 /// What the command line calls it.
 fn key(kind: MilestoneKind) -> String {
     kind.name().replace(' ', "-")
+}
+
+/// A time as text, with as many digits as the frames ask for.
+pub(super) fn seconds(record: &RunRecord, time: f64) -> String {
+    let interval = record.scene.time.frame_interval;
+    let tenfold = std::iter::successors(Some(interval), |scaled| Some(10.0 * scaled));
+    let digits = tenfold.take(18).position(|scaled| scaled >= 1.0 - 1e-9);
+    format!("{time:.*}", digits.unwrap_or(18))
+}
+
+/// The same without zeros at its end.
+pub(super) fn brief(record: &RunRecord, time: f64) -> String {
+    let text = seconds(record, time);
+    text.parse()
+        .map_or(text, |rounded: f64| rounded.to_string())
 }
 
 /// At most that many states, spaced as evenly as possible, with the first and the last.

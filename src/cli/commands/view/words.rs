@@ -1,25 +1,10 @@
 //! What is written around the panels, and into the metadata.
 
-use super::moment;
+use super::moment::{self, seconds};
 use phase::observe::Snapshot;
 use phase::record::RunRecord;
 use phase::scene::{Radii, Units};
 use std::collections::BTreeSet;
-
-/// A time as text, with as many digits as the frames ask for.
-fn seconds(record: &RunRecord, time: f64) -> String {
-    let interval = record.scene.time.frame_interval;
-    let tenfold = std::iter::successors(Some(interval), |scaled| Some(10.0 * scaled));
-    let digits = tenfold.take(18).position(|scaled| scaled >= 1.0 - 1e-9);
-    format!("{time:.*}", digits.unwrap_or(18))
-}
-
-/// The same without zeros at its end.
-pub(super) fn brief(record: &RunRecord, time: f64) -> String {
-    let text = seconds(record, time);
-    text.parse()
-        .map_or(text, |rounded: f64| rounded.to_string())
-}
 
 /// The caption of a state: its time after the origin (s), and what happened since the state before.
 pub(super) fn caption(record: &RunRecord, state: &Snapshot, origin: f64) -> String {
