@@ -98,6 +98,7 @@ pub mod document;
 mod fonts;
 #[doc(hidden)]
 pub mod forces;
+pub mod grid;
 mod markup;
 #[doc(hidden)]
 pub mod measure;

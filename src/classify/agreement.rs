@@ -59,6 +59,8 @@ impl Agreement {
             let axes = [&one.axes, &other.axes].map(|axes| axes.join(", "));
             return Err(format!("their axes differ: {} and {}", axes[0], axes[1]));
         }
+        let aligned = other.clone().with_variants(one.variants.clone());
+        let other = &aligned;
         for (by_runs, entries) in [(true, runs as fn(&LabelTable) -> _), (false, points)] {
             let found = Self::of_entries(one, by_runs, &entries(one), &entries(other));
             if found.pairs > 0 {
@@ -167,6 +169,7 @@ mod tests {
         LabelTable {
             family: &TANK,
             axes: vec!["radius".to_owned()],
+            variants: Vec::new(),
             rows: rows.iter().map(row).collect(),
         }
     }

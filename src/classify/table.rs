@@ -9,6 +9,9 @@ pub struct LabelTable {
     pub family: &'static Family,
     /// Names of the axes, in the sweep's order.
     pub axes: Vec<String>,
+    /// Names of the variants, for which places among them are the values of the axis
+    /// [`VARIANT`](Self::VARIANT). Empty without that axis.
+    pub variants: Vec<String>,
     /// One row per job, in the sweep's order.
     pub rows: Vec<LabelRow>,
 }
@@ -40,6 +43,43 @@ pub struct Point {
 }
 
 impl LabelTable {
+    /// Name of the axis whose values are variants.
+    pub const VARIANT: &'static str = "variant";
+
+    /// Which of the axes is that of variants, if there is one.
+    pub fn axis_of_variants(&self) -> Option<usize> {
+        let mut names = self.axes.iter();
+        names.position(|name| name == Self::VARIANT)
+    }
+
+    /// The same table with variants in this order, as another source has them, and after these
+    /// those that it does not have.
+    #[must_use]
+    pub fn with_variants(mut self, mut names: Vec<String>) -> Self {
+        let Some(axis) = self.axis_of_variants() else {
+            return self;
+        };
+        let place = |name: &String| {
+            names.iter().position(|own| own == name).unwrap_or_else(|| {
+                names.push(name.clone());
+                names.len() - 1
+            })
+        };
+        let places: Vec<f64> = self
+            .variants
+            .iter()
+            .map(place)
+            .map(|it| it as f64)
+            .collect();
+        for row in &mut self.rows {
+            if let Some(place) = places.get(row.values[axis] as usize) {
+                row.values[axis] = *place;
+            }
+        }
+        self.variants = names;
+        self
+    }
+
     /// Whether runs end when they are steady, as far as any row says.
     pub fn has_steady(&self) -> bool {
         self.rows.iter().any(|row| row.verdict.steady.is_some())

@@ -2,10 +2,12 @@
 
 use super::format;
 use super::progress::Progress;
+use phase::grid::Axis;
 use phase::record::RunRecord;
 use phase::run;
-use phase::sweep::{Axis, Event, Failure, Job};
+use phase::sweep::{Event, Failure, Job};
 use serde::Serialize;
+use serde_json::Value;
 use std::collections::BTreeMap;
 
 /// A job of a sweep, and what went wrong with it.
@@ -13,7 +15,7 @@ use std::collections::BTreeMap;
 pub(super) struct NamedJob {
     id: String,
     /// Values by the names of the axes.
-    point: BTreeMap<String, f64>,
+    point: BTreeMap<String, Value>,
     seed: u64,
     reason: String,
 }
@@ -37,10 +39,13 @@ pub(super) fn unit_of(jobs: &[Job]) -> &'static str {
     first.map_or("", |job| run::model_of(&job.scene).work_unit())
 }
 
-/// Values by the names of their axes.
-pub(super) fn point(axes: &[Axis], values: &[f64]) -> BTreeMap<String, f64> {
-    let names = axes.iter().map(|axis| axis.name.clone());
-    names.zip(values.iter().copied()).collect()
+/// Values by the names of their axes; variants are named.
+pub(super) fn point(axes: &[Axis], values: &[f64]) -> BTreeMap<String, Value> {
+    let value = |(axis, &value): (&Axis, &f64)| match axis.variant(value) {
+        Some(variant) => (axis.name.clone(), variant.name.as_str().into()),
+        None => (axis.name.clone(), value.into()),
+    };
+    axes.iter().zip(values).map(value).collect()
 }
 
 /// Prints what happened to a job. `name` gives its name, `ended` describes a run that ended.

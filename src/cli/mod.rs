@@ -7,6 +7,7 @@ mod console;
 mod exit;
 mod figures;
 mod folders;
+mod forecast;
 mod format;
 mod interrupt;
 mod job;

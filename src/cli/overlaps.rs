@@ -3,8 +3,9 @@
 use super::console::Console;
 use super::format;
 use phase::dem::{Overlap, Release};
+use phase::grid::{Axis, describe};
 use phase::scene::Scene;
-use phase::sweep::{Axis, Job, describe};
+use phase::sweep::Job;
 
 /// Warns of overlaps that are deep or push spheres apart faster than any impact of the scene.
 pub(super) fn warn_of_scene(scene: &Scene, console: &Console) {

@@ -5,6 +5,7 @@ use phase::classify::Family;
 use phase::refine::{Finish, Gap, Settings, Width};
 use phase::sweep::{Refining, Sweep, label_name};
 use serde::Serialize;
+use serde_json::Value;
 use std::collections::BTreeMap;
 
 /// What `--json` prints of a refined sweep.
@@ -113,7 +114,7 @@ pub(super) fn describe_end(settings: &Settings, end: Finish) -> String {
 
 /// What the runs may have missed.
 pub(super) fn describe_gap(sweep: &Sweep, gap: &Gap) -> String {
-    let point: BTreeMap<String, f64> = job::point(&sweep.axes, &gap.values);
+    let point: BTreeMap<String, Value> = job::point(&sweep.axes, &gap.values);
     let point = point
         .iter()
         .map(|(name, value)| format!("{name} = {value}"));

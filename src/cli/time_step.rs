@@ -2,8 +2,9 @@
 
 use super::console::Console;
 use phase::dem::timestep::{self, Limit, StepMargin};
+use phase::grid::{Axis, describe};
 use phase::scene::Scene;
-use phase::sweep::{Axis, Job, Sweep, describe};
+use phase::sweep::{Job, Sweep};
 use std::collections::BTreeSet;
 
 /// A limit of the time step, and the job that comes closest to it.

@@ -5,7 +5,6 @@
 //! times only on this one.
 
 mod forecast;
-pub mod neighbours;
 mod representatives;
 mod run;
 mod sweep;

@@ -41,11 +41,10 @@ fn row_at(source: &Source<'_>, point: &Selection) -> Result<usize, PlotError> {
     })?;
     let written = point.to_string();
     if let Some(open) = chosen.axes.iter().find(|axis| axis.values.len() > 1) {
-        let known: Vec<String> = open.values.iter().map(f64::to_string).collect();
         return Err(PlotError::request(format_args!(
             "the point {written} leaves the axis `{}` open; it takes {}",
             open.name,
-            known.join(", ")
+            open.words().join(", ")
         )));
     }
     let place: Vec<f64> = chosen.axes.iter().map(|axis| axis.values[0]).collect();
@@ -181,7 +180,7 @@ pub(super) fn place(source: &Source<'_>, row: &LabelRow) -> Vec<String> {
 /// The same as one would write it on the command line.
 pub(super) fn plainly(source: &Source<'_>, row: &LabelRow) -> String {
     let axes = source.sweep.axes.iter().zip(&row.values);
-    let values = axes.map(|(axis, value)| format!("{} = {value}", axis.name));
+    let values = axes.map(|(axis, value)| format!("{} = {}", axis.name, axis.word(*value)));
     let seed = [format!("seed = {}", row.seed)];
     values.chain(seed).collect::<Vec<_>>().join(", ")
 }
@@ -190,6 +189,9 @@ pub(super) fn plainly(source: &Source<'_>, row: &LabelRow) -> String {
 /// lengths in millimetres.
 pub(super) fn quantity(source: &Source<'_>, key: &str, name: &str, value: f64) -> String {
     let axes = source.sweep.axes.iter().filter(|axis| axis.key == key);
+    if let Some(variant) = axes.clone().find_map(|axis| axis.variant(value)) {
+        return variant.name.clone();
+    }
     let others: Vec<f64> = axes.flat_map(|axis| axis.values.iter().copied()).collect();
     let Some(notation) = source.sweep.scene.notation(key) else {
         return format!("{name} = {}", numbers::among(value, &others));

@@ -55,7 +55,11 @@ pub(super) fn curves<P>(
             grid.columns.as_ref(),
             grid.rows.as_ref(),
         ];
-        let keys = axes.into_iter().flatten().map(|axis| axis.key.as_str());
+        let numbers = axes
+            .into_iter()
+            .flatten()
+            .filter(|axis| axis.words.is_empty());
+        let keys = numbers.map(|axis| axis.key.as_str());
         let values = keys.filter(|key| *key != OMEGA).filter_map(|key| {
             let value = value(key, place)?;
             // Between whole numbers of spheres there is no scene.
@@ -128,8 +132,9 @@ mod tests {
     use super::*;
     use crate::classify::{Label, Sieves, TANK, Verdict};
     use crate::classify::{LabelRow, LabelTable};
+    use crate::grid::Axis;
     use crate::record::Program;
-    use crate::sweep::{Axis, PlotSettings, Sweep};
+    use crate::sweep::{PlotSettings, Sweep};
     use serde_json::json;
 
     const RADIUS: &str = "spheres.radius";
@@ -149,11 +154,7 @@ mod tests {
     /// The curves of all panels of a sweep over these axes, and the shown value over the value of
     /// the horizontal axis.
     fn curves(axes: &[(&str, &[f64])]) -> (Vec<Vec<Piece>>, f64) {
-        let axis = |&(key, values): &(&str, &[f64])| Axis {
-            key: key.to_owned(),
-            name: key.to_owned(),
-            values: values.to_vec(),
-        };
+        let axis = |&(key, values): &(&str, &[f64])| Axis::of_numbers(key, key, values.to_vec());
         let sweep = Sweep {
             title: None,
             scene: scene(),
@@ -172,6 +173,7 @@ mod tests {
         let table = LabelTable {
             family: &TANK,
             axes: axes.iter().map(|(key, _)| (*key).to_owned()).collect(),
+            variants: Vec::new(),
             rows: vec![row],
         };
         let grid = PanelGrid::new(&Source {

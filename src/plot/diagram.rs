@@ -129,12 +129,22 @@ pub(super) struct Diagram<'a, P = Point> {
 impl Diagram<'_> {
     /// Draws it with the curves of the critical rotation.
     pub(super) fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
-        let scene = &source.sweep.scene;
-        let panels = self.grid.panels.iter();
-        let curves: Vec<Vec<PanelCurve>> = panels
-            .map(|panel| critical::curves(scene, self.grid, panel))
-            .collect();
-        let entries = PanelCurve::entries(&curves, critical::WORDS);
+        let curves = |panel: &GridPanel| {
+            let scene = source.sweep.scene_of_variant(self.grid.variant(panel));
+            critical::curves(scene, self.grid, panel)
+        };
+        self.draw_with(source, &curves, critical::WORDS)
+    }
+
+    /// Draws it with curves of each panel, of which these words tell in the legend.
+    pub(super) fn draw_with(
+        &self,
+        source: &Source<'_>,
+        curves: &dyn Fn(&GridPanel) -> Vec<PanelCurve>,
+        words: [&str; 2],
+    ) -> Result<Svg, PlotError> {
+        let curves: Vec<Vec<PanelCurve>> = self.grid.panels.iter().map(curves).collect();
+        let entries = PanelCurve::entries(&curves, words);
         let title = source.sweep.title.as_deref();
         let body = self.body(title, &curves, entries)?;
         Ok(Svg::new(self.name, &source.origin(), &body))

@@ -44,7 +44,6 @@ mod spacing;
 mod speeds;
 pub mod stability;
 mod states;
-pub mod step_time;
 mod style;
 mod svg;
 mod text;

@@ -5,22 +5,11 @@
 
 use crate::classify::Label;
 use crate::color::{self, ColorMap};
-use crate::study::stability;
 use plotters::style::RGBColor;
 
 /// Colour of a state.
 pub(super) fn state(label: Label) -> RGBColor {
     color(label.color)
-}
-
-/// Colour of what became of a run numerically: the darker the worse.
-pub(super) fn stability(label: stability::Label) -> RGBColor {
-    match label {
-        stability::Label::Stable => rgb(0xe6_e2_f7),
-        stability::Label::EnergyGain => rgb(0xe2_a8_3c),
-        stability::Label::LostSphere => rgb(0x98_2c_74),
-        stability::Label::NotANumber => rgb(0x00_00_00),
-    }
 }
 
 /// Colours of lines, up to four in a panel, from dark to light.
@@ -80,7 +69,7 @@ const fn color([red, green, blue]: [u8; 3]) -> RGBColor {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::classify::{FAMILIES, TANK};
+    use crate::classify::{FAMILIES, NUMERICS, TANK};
 
     type Matrix = [[f64; 3]; 3];
 
@@ -217,9 +206,9 @@ mod tests {
 
     #[test]
     fn numerical_labels_and_lines_stay_apart_for_every_vision_and_in_grey() {
-        let mut numerical = stability::Label::ALL.map(super::stability);
-        numerical.reverse();
-        for colors in [&LINES, &numerical] {
+        let numerical = NUMERICS.labels().into_iter().rev();
+        let numerical: Vec<RGBColor> = numerical.map(state).collect();
+        for colors in [&LINES[..], &numerical] {
             for pair in colors.windows(2) {
                 apart_for_every_vision(pair[0], pair[1]);
                 let step = lightness(pair[1]) - lightness(pair[0]);

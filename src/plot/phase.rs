@@ -23,6 +23,15 @@ pub(super) fn figure() -> Figure {
 }
 
 fn draw(source: &Source<'_>) -> Result<Svg, PlotError> {
+    with_diagram(NAME, source, |diagram| diagram.draw(source))
+}
+
+/// Has the phase diagram of a source drawn, under a name.
+pub(super) fn with_diagram(
+    name: &str,
+    source: &Source<'_>,
+    draw: impl FnOnce(&Diagram<'_>) -> Result<Svg, PlotError>,
+) -> Result<Svg, PlotError> {
     let grid = PanelGrid::new(source)?;
     let points: Vec<&Point> = grid
         .panels
@@ -44,15 +53,14 @@ fn draw(source: &Source<'_>) -> Result<Svg, PlotError> {
         let key = LegendKey::Fill(Fill::Falling(WHITE));
         legend.push(LegendEntry::new(key, "not steady"));
     }
-    Diagram {
-        name: NAME,
+    draw(&Diagram {
+        name,
         grid: &grid,
         look: &|point| Some(look(point, is_unsteady(point))),
         empty: "not run".to_owned(),
         legend,
         bar: None,
-    }
-    .draw(source)
+    })
 }
 
 /// Whether more than half of the seeds of a point have its label.

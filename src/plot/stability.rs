@@ -1,17 +1,17 @@
-//! The phase diagram of the numerics: what became of the runs of a study, one panel per integrator,
-//! with the theoretical limit of the time step over it.
+//! The phase diagram of the numerics: a panel for each integrator, with the theoretical limit of the
+//! time step over it.
 
 use super::contour::{Nodes, Piece};
-use super::diagram::{Diagram, Look, PanelCurve, Stroke};
-use super::grid::{GridAxis, GridPanel, PanelGrid};
-use super::legend::{LegendEntry, LegendKey};
-use super::style::Fill;
+use super::diagram::{PanelCurve, Stroke};
+use super::grid::{GridAxis, GridPanel};
 use super::svg::Svg;
-use super::{PlotError, palette};
-use crate::dem::timestep::Limit;
+use super::{PlotError, Source, phase};
+use crate::dem::timestep::{Limit, limits};
 use crate::record::Program;
-use crate::scene::{Integrator, Scene};
-use crate::study::stability::{Label, Row, Study, Theory};
+use crate::store::StoreError;
+use crate::study::comparison::{RunRow, Setting};
+use crate::study::stability::StabilityStudy;
+use std::path::Path;
 
 /// What the legend calls the full and the dashed curves.
 const LIMITS: [&str; 2] = ["limit of the time step", "advised limit of twelve contacts"];
@@ -20,96 +20,64 @@ const LIMITS: [&str; 2] = ["limit of the time step", "advised limit of twelve co
 ///
 /// # Errors
 /// [`PlotError`] if the figure cannot be drawn.
-pub fn draw(study: &Study, rows: &[Row], program: &Program) -> Result<Svg, PlotError> {
-    let axis = |index| GridAxis::over(index, &study.axes, &study.scene, std::iter::empty());
-    let (x, y) = (axis(0), axis(1));
-    let panel = |&integrator: &Integrator| panel(study, rows, integrator, &x, &y);
-    let panels = study.integrators.iter().map(panel).collect();
-    let theory = |&integrator: &Integrator| curves(study, integrator, &x, &y);
-    let curves: Vec<Vec<PanelCurve>> = study.integrators.iter().map(theory).collect();
-    let grid = PanelGrid {
-        x: x.clone(),
-        y: Some(y.clone()),
-        columns: None,
-        rows: None,
-        panels,
+pub fn draw(
+    study: &StabilityStudy,
+    rows: &[Option<RunRow>],
+    program: &Program,
+) -> Result<Svg, PlotError> {
+    let (sweep, table) = study.labels(rows);
+    let source = Source {
+        sweep: &sweep,
+        refining: None,
+        table: &table,
+        record: &|id| {
+            Err(StoreError::content(
+                Path::new(id),
+                "a study keeps no records",
+            ))
+        },
+        points: &[],
+        times: None,
+        program,
     };
-    let occurs = |label: &Label| rows.iter().any(|row| row.label == *label);
-    let legend = Label::ALL.into_iter().filter(occurs);
-    let legend = legend.map(|label| LegendEntry::new(LegendKey::Fill(fill(label)), words(label)));
-    let diagram = Diagram {
-        name: "stability",
-        grid: &grid,
-        look: &|label: &Label| Some(Look::new(fill(*label), Some(*label as i8))),
-        empty: "not run".to_owned(),
-        legend: legend.collect(),
-        bar: None,
-    };
-    let body = diagram.body(
-        study.title.as_deref(),
-        &curves,
-        PanelCurve::entries(&curves, LIMITS),
-    )?;
-    let scene = Scene {
-        title: study.title.clone(),
-        ..study.scene.clone()
-    };
-    Ok(Svg::of_scene(diagram.name, &scene, program, &body))
+    phase::with_diagram("stability", &source, |diagram| {
+        let grid = diagram.grid;
+        let curves = |panel: &GridPanel| match (grid.variant(panel), &grid.y) {
+            (Some(place), Some(y)) => {
+                let setting = &study.comparison.settings[place as usize];
+                curves(study, setting, &grid.x, y)
+            }
+            _ => Vec::new(),
+        };
+        diagram.draw_with(&source, &curves, LIMITS)
+    })
 }
 
-fn words(label: Label) -> &'static str {
-    match label {
-        Label::Stable => "stable",
-        Label::EnergyGain => "energy gain",
-        Label::LostSphere => "lost sphere",
-        Label::NotANumber => "not a number",
-    }
-}
-
-fn fill(label: Label) -> Fill {
-    Fill::Color(palette::stability(label))
-}
-
-fn panel(
-    study: &Study,
-    rows: &[Row],
-    integrator: Integrator,
+/// The limit that decides, and the advised one of a sphere with twelve contacts, which there is not
+/// with sub-steps or without contacts.
+fn curves(
+    study: &StabilityStudy,
+    setting: &Setting,
     x: &GridAxis,
     y: &GridAxis,
-) -> GridPanel<Label> {
-    let mut cells = vec![None; x.values.len() * y.values.len()];
-    for row in rows.iter().filter(|row| row.integrator == integrator) {
-        if let (Some(column), Some(line)) = (x.position(&row.values), y.position(&row.values)) {
-            cells[column + line * x.values.len()] = Some(row.label);
-        }
-    }
-    GridPanel {
-        head: (study.integrators.len() > 1).then(|| integrator.name().to_owned()),
-        column: None,
-        row: None,
-        cells,
-    }
-}
-
-/// The limit that decides, and that of twelve contacts.
-fn curves(study: &Study, integrator: Integrator, x: &GridAxis, y: &GridAxis) -> Vec<PanelCurve> {
+) -> Vec<PanelCurve> {
     let (across, up) = (nodes(x), nodes(y));
-    let theories: Vec<Option<(f64, Theory)>> = across
+    let at_nodes = across
         .iter()
-        .flat_map(|&x_value| up.iter().map(move |&y_value| [x_value, y_value]))
+        .flat_map(|&x_value| up.iter().map(move |&y_value| [x_value, y_value]));
+    let all: Vec<Option<(f64, Vec<Limit>)>> = at_nodes
         .map(|values| {
-            let scene = study.scene_at(&values, integrator).ok()?;
-            Some((scene.time.dt, Theory::of(&scene)))
+            let scene = study.frames.scene_at(&setting.sweep, &values).ok()?;
+            Some((scene.time.dt, limits(&scene)))
         })
         .collect();
-    let theory = |i: usize, j: usize| theories[j + i * up.len()];
     let shown = |places: &[f64], axis: &GridAxis| -> Vec<f64> {
         places.iter().map(|place| place * axis.factor).collect()
     };
-    let of = |limit: fn(&Theory) -> Option<Limit>| -> Vec<Piece> {
+    let of = |is_meant: fn(&&Limit) -> bool| -> Vec<Piece> {
         let value = |i: usize, j: usize| {
-            let (dt, theory) = theory(i, j)?;
-            Some(dt / limit(&theory)?.seconds - 1.0)
+            let (dt, limits) = all[j + i * up.len()].as_ref()?;
+            Some(dt / limits.iter().find(is_meant)?.seconds - 1.0)
         };
         Nodes {
             x: &shown(&across, x),
@@ -121,11 +89,11 @@ fn curves(study: &Study, integrator: Integrator, x: &GridAxis, y: &GridAxis) -> 
     };
     vec![
         PanelCurve {
-            pieces: of(|theory| theory.twelve_contacts),
+            pieces: of(|limit| limit.name == "twelve contacts"),
             stroke: Stroke::Dashed,
         },
         PanelCurve {
-            pieces: of(|theory| theory.decisive),
+            pieces: of(|limit| limit.decisive),
             stroke: Stroke::Full,
         },
     ]

@@ -10,7 +10,7 @@ pub use notation::notation;
 use crate::document::Schema;
 use crate::scene::SCENE;
 use crate::study::accuracy::ACCURACY;
-use crate::study::stability::STUDY;
+use crate::study::stability::STABILITY;
 use crate::sweep::SWEEP;
 use serde_json::{Value, json};
 
@@ -45,7 +45,7 @@ impl InputFile {
         match self {
             Self::Scene => &SCENE,
             Self::Sweep => &SWEEP,
-            Self::Stability => &STUDY,
+            Self::Stability => &STABILITY,
             Self::Accuracy => &ACCURACY,
         }
     }

@@ -17,7 +17,7 @@ pub struct Change {
 
 /// Keys whose value determines the other keys of their table: with a new value, the old keys are
 /// dropped.
-const TAGS: [&str; 2] = ["law", "kind"];
+const TAGS: [&str; 3] = ["law", "kind", "search"];
 
 impl Change {
     /// One key with another value.

@@ -23,13 +23,16 @@ const SCENE_KEY: &str = "spheres";
 /// The key that makes a file a study.
 const STUDY_KEY: &str = "study";
 
+/// The study of a sweep: its file is one of a sweep.
+const ABLATION: &str = "ablation";
+
 impl FileKind {
     /// The kind of a document, and the key that determines it (for a scene, `spheres`).
     pub(crate) fn of(document: &Document) -> (Self, &'static str) {
         let tree: &Value = document.tree();
         let has = |key: &str| tree.get(key).is_some();
         match SWEEP_KEYS.into_iter().find(|key| has(key)) {
-            _ if has(STUDY_KEY) => (Self::Study, STUDY_KEY),
+            _ if has(STUDY_KEY) && tree[STUDY_KEY] != ABLATION => (Self::Study, STUDY_KEY),
             Some(key) => (Self::Sweep, key),
             None => (Self::Scene, SCENE_KEY),
         }
@@ -55,10 +58,7 @@ impl FileKind {
                 format!("`phase sweep {file}` runs it; a study says `study = \"stability\"`")
             }
             (Self::Sweep, _) => format!("`phase sweep {file}` runs it"),
-            (Self::Study, _) => {
-                let study = document.tree()[STUDY_KEY].as_str().unwrap_or("stability");
-                format!("`phase {study} {file}` runs it")
-            }
+            (Self::Study, _) => format!("`phase study {file}` runs it"),
         };
         let message = format!("this is a {}, not a {}", kind.name(), self.name());
         Err(document.refuse(&[Problem::new(key, message).help(help).at_key()]))

@@ -9,6 +9,7 @@ use super::{StoreError, write_atomic};
 use crate::classify::{FAMILIES, Family, LabelRow, LabelTable, Verdict};
 use crate::document::text;
 use csv::StringRecord;
+use serde::Serialize;
 use std::collections::HashMap;
 use std::path::Path;
 
@@ -43,8 +44,9 @@ pub fn write_labels(table: &LabelTable, path: &Path) -> Result<(), StoreError> {
             false => &[],
         };
         let values = &verdict.values;
+        let point = cells(table, &row.values);
         writer
-            .serialize((&row.id, &row.values, row.seed, label, steady, values))
+            .serialize((&row.id, point, row.seed, label, steady, values))
             .map_err(fail)?;
     }
     save(writer, path)
@@ -65,7 +67,7 @@ pub fn write_points(table: &LabelTable, path: &Path) -> Result<(), StoreError> {
     for point in table.points() {
         writer
             .serialize((
-                &point.values,
+                cells(table, &point.values),
                 point.label,
                 point.label.code,
                 point.agreement,
@@ -76,7 +78,25 @@ pub fn write_points(table: &LabelTable, path: &Path) -> Result<(), StoreError> {
     save(writer, path)
 }
 
-/// Reads a table of labels.
+/// The values of a point, a variant by its name.
+fn cells<'a>(table: &'a LabelTable, values: &[f64]) -> Vec<Cell<'a>> {
+    let of_variants = table.axis_of_variants();
+    let cell = |(axis, &value): (usize, &f64)| match table.variants.get(value as usize) {
+        Some(name) if Some(axis) == of_variants => Cell::Word(name),
+        _ => Cell::Number(value),
+    };
+    values.iter().enumerate().map(cell).collect()
+}
+
+/// A value in a table.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Cell<'a> {
+    Number(f64),
+    Word(&'a str),
+}
+
+/// Reads a table of labels. Variants are in the order in which it names them first.
 ///
 /// # Errors
 /// [`StoreError::Read`], with the line at fault.
@@ -87,11 +107,12 @@ pub fn read_labels(path: &Path) -> Result<LabelTable, StoreError> {
     let header = read_header(header).map_err(|reason| StoreError::text(path, 1, reason))?;
     let LabelColumns { family, axes, .. } = &header;
     let names = columns(family, axes, header.has_steady);
+    let mut variants = Vec::new();
     let rows = reader
         .records()
         .map(|record| {
             let record = record.map_err(|error| malformed(path, &error))?;
-            read_row(&header, &names, &record).map_err(|reason| {
+            read_row(&header, &names, &mut variants, &record).map_err(|reason| {
                 let line = record.position().map_or(1, csv::Position::line);
                 StoreError::text(path, line, reason)
             })
@@ -109,7 +130,12 @@ pub fn read_labels(path: &Path) -> Result<LabelTable, StoreError> {
     }
     drop(lines);
     let LabelColumns { family, axes, .. } = header;
-    Ok(LabelTable { family, axes, rows })
+    Ok(LabelTable {
+        family,
+        axes,
+        variants,
+        rows,
+    })
 }
 
 /// What the header line of a table says.
@@ -161,6 +187,7 @@ fn read_header(header: &StringRecord) -> Result<LabelColumns, String> {
 fn read_row(
     header: &LabelColumns,
     names: &[String],
+    variants: &mut Vec<String>,
     record: &StringRecord,
 ) -> Result<LabelRow, String> {
     fn parse<T: std::str::FromStr>(name: &str, field: &str, what: &str) -> Result<T, String> {
@@ -193,6 +220,16 @@ fn read_row(
         field => parse(&names[at], field, "true or false").map(Some),
     };
     let values = (first..names.len()).map(optional);
+    let mut value = |at: usize| {
+        if names[at] != LabelTable::VARIANT {
+            return number(at);
+        }
+        let known = variants.iter().position(|name| *name == record[at]);
+        Ok(known.unwrap_or_else(|| {
+            variants.push(record[at].to_owned());
+            variants.len() - 1
+        }) as f64)
+    };
     Ok(LabelRow {
         id: record[0].to_owned(),
         seed: parse("seed", &record[seed], "a whole number")?,
@@ -202,7 +239,7 @@ fn read_row(
             steady: steady.map(truth).transpose()?.flatten(),
             values: values.collect::<Result<_, _>>()?,
         },
-        values: (1..seed).map(number).collect::<Result<_, _>>()?,
+        values: (1..seed).map(&mut value).collect::<Result<_, _>>()?,
     })
 }
 

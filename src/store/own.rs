@@ -51,9 +51,8 @@ fn kind_of(name: &str) -> Option<OwnFile> {
         "borders.csv" => OwnFile::Table("along,below,above,low_68,high_68"),
         "runs.csv" | "accuracy.csv" => OwnFile::Table("setting,"),
         "ablation.csv" => OwnFile::Table("without,"),
-        "stability.csv" => OwnFile::Table("integrator,"),
-        "step-time-count.csv" | "step-time-length.csv" => OwnFile::Table("search,length,spheres"),
-        "stability.makers.csv" => OwnFile::Table("id,version,commit"),
+        "stability.json" => OwnFile::Object(&["integrators"]),
+        "runs.makers.csv" => OwnFile::Table("id,version,commit"),
         "verification.csv" => OwnFile::Table("family,case,integrator,quantity"),
         name if name.ends_with("-observations.csv") => OwnFile::Table("time,"),
         name if name.ends_with("-fixed.csv") => OwnFile::Table("kind,x,y,z,radius"),
@@ -159,7 +158,7 @@ mod tests {
             ("run.xyz", "1\nsteel\nFe 0 0 0\n"),
             ("walls.vtp", "<?xml version=\"1.0\"?>\n<VTKFile>"),
             ("phase.1", ".TH moon 1\n"),
-            ("step-time-count.csv", "spheres,seconds\n"),
+            ("runs.makers.csv", "run,build\n"),
             ("notes.txt", "phase"),
         ] {
             let path = place.path().join(name);

@@ -1,11 +1,10 @@
-//! Studies: runs of one scene over axes and variants, from which one finding follows.
+//! Studies: runs of one scene over axes and settings, from which one finding follows.
 
 pub mod ablation;
 pub mod accuracy;
 mod any_file;
 pub mod comparison;
 mod name;
-mod rows;
 pub mod stability;
 
 pub use any_file::{AnyFile, AnyStudy};

@@ -12,14 +12,17 @@ pub enum StudyName {
     Stability,
     /// What settings of a scene cost, and how wrong they are.
     Accuracy,
+    /// Which effects a scene or sweep needs.
+    Ablation,
 }
 
 impl StudyName {
-    /// Name, as in a file and as of its command.
+    /// Name, as in a file and in the path of its results.
     pub fn name(self) -> &'static str {
         match self {
             Self::Stability => "stability",
             Self::Accuracy => "accuracy",
+            Self::Ablation => "ablation",
         }
     }
 
@@ -38,7 +41,7 @@ impl StudyName {
                 let (own, other) = (self.name(), other.name());
                 let message = format!("this is a study of {other}, not of {own}");
                 let file = document.path().display();
-                let help = format!("`phase {other} {file}` runs it");
+                let help = format!("`phase study {file}` runs it");
                 Err(document.refuse(&[Problem::new("study", message).help(help)]))
             }
             _ => Ok(()),

@@ -44,6 +44,7 @@ impl Labelling {
             table: LabelTable {
                 family: Family::of(scene),
                 axes: ["radius", "density", "omega"].map(str::to_owned).into(),
+                variants: Vec::new(),
                 rows: Vec::new(),
             },
             missing: 0,

@@ -1,6 +1,6 @@
 //! A job that failed, and how a job is named to people.
 
-use super::{Axis, Job};
+use super::Job;
 
 /// A job that failed.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,13 +25,4 @@ impl Failure {
             reason: reason.into(),
         }
     }
-}
-
-/// Names a point of the grid with its seed: `radius = 0.003, omega = 6, seed 1`.
-pub fn describe(axes: &[Axis], values: &[f64], seed: u64) -> String {
-    let mut text = String::new();
-    for (axis, value) in axes.iter().zip(values) {
-        text += &format!("{} = {value}, ", axis.name);
-    }
-    text + &format!("seed {seed}")
 }

@@ -2,8 +2,10 @@
 //!
 //! Columns: `id`, the axes by their names, `seed`, `reason`.
 
-use super::{Axis, Failure};
+use super::Failure;
+use crate::grid::Axis;
 use crate::store::{Lock, StoreError, retry, write_atomic};
+use serde::Serialize;
 use std::collections::HashMap;
 use std::fs::{self, OpenOptions};
 use std::io::{self, Write};
@@ -63,7 +65,7 @@ impl<'a> FailureTable<'a> {
         let mut text = self.header()?;
         let before = fs::read(&self.path).unwrap_or_default();
         let noted = match before.starts_with(&text) {
-            true => read_failures(&self.path).unwrap_or_default(),
+            true => read_failures(self.axes, &self.path).unwrap_or_default(),
             false => Vec::new(),
         };
         let mut failures = last_of_each(noted.into_iter().chain(more.iter().cloned()));
@@ -93,7 +95,8 @@ impl<'a> FailureTable<'a> {
     }
 
     fn row(&self, failure: &Failure) -> Result<Vec<u8>, StoreError> {
-        let cells = (&failure.id, &failure.values, failure.seed, &failure.reason);
+        let values = cells(self.axes, &failure.values);
+        let cells = (&failure.id, values, failure.seed, &failure.reason);
         self.line(|table| table.serialize(cells))
     }
 
@@ -125,12 +128,29 @@ fn last_of_each(failures: impl IntoIterator<Item = Failure>) -> Vec<Failure> {
     last
 }
 
-/// Reads the table of failed jobs. Where there is no file, no job failed. Of a job that failed
-/// several times the last failure counts.
+/// The values of a point in a table: numbers, and the names of variants.
+fn cells(axes: &[Axis], values: &[f64]) -> Vec<Cell> {
+    let cell = |(axis, &value): (&Axis, &f64)| match axis.variant(value) {
+        Some(variant) => Cell::Word(variant.name.clone()),
+        None => Cell::Number(value),
+    };
+    axes.iter().zip(values).map(cell).collect()
+}
+
+/// A value in a table.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Cell {
+    Number(f64),
+    Word(String),
+}
+
+/// Reads the table of failed jobs of a sweep with these axes. Where there is no file, no job
+/// failed. Of a job that failed several times the last failure counts.
 ///
 /// # Errors
 /// If the file cannot be read or is not such a table.
-pub fn read_failures(path: &Path) -> Result<Vec<Failure>, StoreError> {
+pub fn read_failures(axes: &[Axis], path: &Path) -> Result<Vec<Failure>, StoreError> {
     if !path.exists() {
         return Ok(Vec::new());
     }
@@ -145,7 +165,7 @@ pub fn read_failures(path: &Path) -> Result<Vec<Failure>, StoreError> {
             continue;
         }
         let line = row.position().map_or(1, csv::Position::line);
-        failures.push(parse(&row).ok_or_else(|| {
+        failures.push(parse(axes, &row).ok_or_else(|| {
             StoreError::text(
                 path,
                 line,
@@ -156,14 +176,18 @@ pub fn read_failures(path: &Path) -> Result<Vec<Failure>, StoreError> {
     Ok(last_of_each(failures))
 }
 
-fn parse(row: &csv::StringRecord) -> Option<Failure> {
+fn parse(axes: &[Axis], row: &csv::StringRecord) -> Option<Failure> {
     let mut cells: Vec<&str> = row.iter().collect();
     let reason = cells.pop()?.to_owned();
     let seed = cells.pop()?.parse().ok()?;
     let (id, values) = cells.split_first()?;
     let values = values
         .iter()
-        .map(|value| value.parse().ok())
+        .enumerate()
+        .map(|(place, cell)| match axes.get(place) {
+            Some(axis) if axis.is_of_variants() => axis.place_of(cell),
+            _ => cell.parse().ok(),
+        })
         .collect::<Option<_>>()?;
     Some(Failure {
         id: (*id).to_owned(),
@@ -181,12 +205,8 @@ mod tests {
     fn reads_back_what_was_written() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("failed.csv");
-        assert_eq!(read_failures(&path).unwrap(), []);
-        let axis = |name: &str| Axis {
-            key: name.to_owned(),
-            name: name.to_owned(),
-            values: vec![],
-        };
+        let axes = ["radius", "omega"].map(|name| Axis::of_numbers(name, name, vec![]));
+        assert_eq!(read_failures(&axes, &path).unwrap(), []);
         let failure = Failure {
             id: "0123456789abcdef".to_owned(),
             values: vec![0.1 + 0.2, 40.0],
@@ -197,7 +217,6 @@ mod tests {
             id: "fedcba9876543210".to_owned(),
             ..failure.clone()
         };
-        let axes = [axis("radius"), axis("omega")];
         let table = FailureTable::new(&axes, path.clone());
         for failure in [&failure, &other, &failure] {
             table.append(failure).unwrap();
@@ -205,15 +224,32 @@ mod tests {
         let text = std::fs::read_to_string(&path).unwrap();
         assert_eq!(text.matches("no room").count(), 3);
         let failures = [failure.clone(), other.clone()];
-        assert_eq!(read_failures(&path).unwrap(), failures);
+        assert_eq!(read_failures(&axes, &path).unwrap(), failures);
         table.tidy(&[], |_| true, |_| ()).unwrap();
-        assert_eq!(read_failures(&path).unwrap(), failures);
+        assert_eq!(read_failures(&axes, &path).unwrap(), failures);
         let text = std::fs::read_to_string(&path).unwrap();
         assert!(text.starts_with("id,radius,omega,seed,reason\n"), "{text}");
         assert_eq!(text.matches("no room").count(), 2);
 
+        let variant = crate::grid::Variant {
+            name: "no drag, calm".to_owned(),
+            scale: Vec::new(),
+            scene: crate::sweep::Sweep::of_falling_sphere().scene,
+        };
+        let variants = [axes[0].clone(), Axis::of_variants(vec![variant])];
+        let of_variant = Failure {
+            values: vec![0.1, 0.0],
+            ..failures[0].clone()
+        };
+        let place = folder.path().join("variants.csv");
+        let table = FailureTable::new(&variants, place.clone());
+        table.append(&of_variant).unwrap();
+        let row = std::fs::read_to_string(&place).unwrap();
+        assert!(row.contains(",\"no drag, calm\","), "{row}");
+        assert_eq!(read_failures(&variants, &place).unwrap(), [of_variant]);
+
         std::fs::write(&path, text.replace("40.0", "forty")).unwrap();
-        let message = read_failures(&path).unwrap_err().to_string();
+        let message = read_failures(&axes, &path).unwrap_err().to_string();
         assert!(message.contains("failed.csv:2: "), "{message}");
     }
 
@@ -237,17 +273,15 @@ mod tests {
         other.append(&failure("a")).unwrap();
         one.tidy(&[failure("b")], |_| true, |it| it.id.clone())
             .unwrap();
-        assert_eq!(read_failures(&path).unwrap(), [failure("a"), failure("b")]);
+        assert_eq!(
+            read_failures(&[], &path).unwrap(),
+            [failure("a"), failure("b")]
+        );
         one.tidy(&[failure("b")], |it| it.id != "b", |_| ())
             .unwrap();
-        assert_eq!(read_failures(&path).unwrap(), [failure("a")]);
+        assert_eq!(read_failures(&[], &path).unwrap(), [failure("a")]);
         // A sweep with other axes has other failures.
-        let axis = Axis {
-            key: "seed".to_owned(),
-            name: "seed".to_owned(),
-            values: vec![],
-        };
-        let axes = [axis];
+        let axes = [Axis::of_numbers("seed", "seed", vec![])];
         let edited = FailureTable::new(&axes, path.clone());
         edited.tidy(&[], |_| true, |_| ()).unwrap();
         assert!(!path.exists());

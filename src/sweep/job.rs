@@ -1,10 +1,10 @@
 //! The jobs of a sweep: every point of its grid with every seed.
 
-use super::{Axis, Sweep};
-use crate::document::{Problem, number};
+use super::Sweep;
+use crate::grid::{self, PointError, PointScenes};
 use crate::refine::start;
 use crate::run::{self, Progress};
-use crate::scene::{Scene, Template};
+use crate::scene::Scene;
 
 /// One job of a sweep.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,19 +30,6 @@ impl Job {
         (progress.share() * self.work() as f64) as u64
     }
 }
-
-/// A point of the grid whose scene cannot be run.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{}{}", if point.is_empty() { String::new() } else { format!("at {point}: ") },
-    problems.iter().map(Problem::to_string).collect::<Vec<_>>().join("; "))]
-pub struct PointError {
-    /// The point, such as `radius = 0.003, omega = 6`; empty for a sweep without axes.
-    pub point: String,
-    /// What is wrong there.
-    pub problems: Vec<Problem>,
-}
-
-crate::refusal::always!(true: PointError);
 
 impl Sweep {
     /// All jobs. The first axis varies slowest; the seeds of a point follow each other. Of a
@@ -94,81 +81,16 @@ impl Sweep {
 
     /// Number of points of the grid.
     pub fn points(&self) -> usize {
-        points(&self.axes)
+        grid::number_of_points(&self.axes)
     }
 
     /// The points of the grid, in order.
-    pub(super) fn grid(&self) -> impl Iterator<Item = Vec<f64>> {
-        grid(&self.axes)
+    pub(crate) fn grid(&self) -> impl Iterator<Item = Vec<f64>> {
+        grid::points(&self.axes)
     }
 
     /// The scene of a point of the grid, checked.
     pub(crate) fn scene_at(&self, values: &[f64]) -> Result<Scene, PointError> {
         PointScenes::new(&self.scene, &self.axes)?.checked(values)
-    }
-}
-
-/// The points of a grid, in order: the first axis varies slowest.
-pub(crate) fn grid(axes: &[Axis]) -> impl Iterator<Item = Vec<f64>> {
-    (0..points(axes)).map(move |index| point_at(axes, index))
-}
-
-/// The point of a grid with that place in its order.
-pub(super) fn point_at(axes: &[Axis], mut index: usize) -> Vec<f64> {
-    let from_last = axes.iter().rev().map(|axis| {
-        let value = axis.values[index % axis.values.len()];
-        index /= axis.values.len();
-        value
-    });
-    let mut values: Vec<f64> = from_last.collect();
-    values.reverse();
-    values
-}
-
-/// Number of points of a grid.
-pub(crate) fn points(axes: &[Axis]) -> usize {
-    let sizes = axes.iter().map(|axis| axis.values.len());
-    sizes.fold(1, usize::saturating_mul)
-}
-
-/// The scenes of the points of a grid.
-pub(crate) struct PointScenes<'a> {
-    axes: &'a [Axis],
-    template: Template,
-}
-
-impl<'a> PointScenes<'a> {
-    /// The scenes of all points, made of `scene`, whose numbers must be in their ranges.
-    pub(crate) fn new(scene: &Scene, axes: &'a [Axis]) -> Result<Self, PointError> {
-        let keys: Vec<&str> = axes.iter().map(|axis| axis.key.as_str()).collect();
-        let template = Template::new(scene, &keys)
-            .map_err(|problem| PointError::new(&[], &[], vec![problem]))?;
-        Ok(Self { axes, template })
-    }
-
-    /// The scene of a point. Only the ranges of its numbers are checked.
-    pub(crate) fn unchecked(&mut self, values: &[f64]) -> Result<Scene, PointError> {
-        let scene = self.template.with(values);
-        scene.map_err(|problems| PointError::new(self.axes, values, problems))
-    }
-
-    /// The scene that is run at a point.
-    pub(crate) fn checked(&mut self, values: &[f64]) -> Result<Scene, PointError> {
-        let scene = self.unchecked(values)?.with_chosen_step_in_range();
-        scene.map_err(|problems| PointError::new(self.axes, values, problems))
-    }
-}
-
-impl PointError {
-    /// What is wrong at the point with these values.
-    pub(crate) fn new(axes: &[Axis], values: &[f64], problems: Vec<Problem>) -> Self {
-        let pairs = axes.iter().zip(values);
-        let pairs: Vec<String> = pairs
-            .map(|(axis, value)| format!("{} = {}", axis.name, number(*value)))
-            .collect();
-        Self {
-            point: pairs.join(", "),
-            problems,
-        }
     }
 }

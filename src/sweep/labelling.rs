@@ -36,12 +36,19 @@ impl Labelling {
         let kept = folder.kept_labels();
         let found = work::map(workers, jobs, |job| {
             let row = label(folder, sweep, job)?;
-            Ok(row.or_else(|| kept.get(&job.id).cloned()))
+            let kept = kept.get(&job.id).cloned();
+            // A table has the places of variants from what it names.
+            let kept = kept.map(|row| LabelRow {
+                values: job.values.clone(),
+                ..row
+            });
+            Ok(row.or(kept))
         })?;
         let mut labelling = Self {
             table: LabelTable {
                 family: Family::of(&sweep.scene),
                 axes: sweep.axes.iter().map(|axis| axis.name.clone()).collect(),
+                variants: sweep.variants(),
                 rows: Vec::new(),
             },
             missing: 0,

@@ -1,7 +1,6 @@
-//! Sweeps: a scene, the axes it is varied over, and the jobs that follow.
+//! Sweeps: the jobs of a grid, who runs them, and their results folder.
 
 mod access;
-mod axis;
 mod backend;
 mod dumps;
 mod failure;
@@ -14,33 +13,25 @@ mod plan;
 mod pool;
 mod records;
 mod refining;
-mod seeds;
 mod select;
-mod spacing;
 mod status;
 pub mod work;
 
 pub use crate::document::differing_keys;
 pub use access::Access;
-pub use axis::Axis;
-pub(crate) use axis::AxisEntry;
 pub use backend::{
     Backend, BackendError, Batch, Begin, Claim, Event, Halt, LocalThreads, Permit, Report, Results,
     Wishes,
 };
 pub use dumps::find_dumps;
-pub use failure::{Failure, describe};
+pub use failure::Failure;
 pub use failures::read_failures;
 pub use folder::{Folder, FolderError};
-pub use job::{Job, PointError};
-pub(crate) use job::{PointScenes, grid, points};
+pub use job::Job;
 pub use labelling::{
     Labelled, Labelling, LabellingError, Since, WithoutRoom, refuse_to_lose_labels,
 };
-pub(crate) use load::{
-    SWEEP, base_scene, check_axes, check_jobs, check_number_of_axes, check_points, check_steps,
-    expand_axes, of_document, or_path,
-};
+pub(crate) use load::{SWEEP, of_document};
 pub use load::{from_str, load};
 pub use plan::{Done, ForeignRecord, Plan, Standing};
 pub use pool::{Pool, PoolError};
@@ -48,11 +39,11 @@ pub use refining::{
     FAILED, Learnt, Refined, Refinement, RefinementError, Refining, RoundsError, Step, WatchRounds,
     label_name,
 };
-pub(crate) use seeds::{SeedsEntry, expand_seeds};
 pub use select::{SelectError, Selection, parse_point};
 pub use status::{Status, UnderWay};
 
 use crate::classify::Sieves;
+use crate::grid::Axis;
 use crate::refine::Settings;
 use crate::scene::Scene;
 use schemars::JsonSchema;
@@ -92,6 +83,19 @@ impl Sweep {
             sieves: Sieves::default(),
             plot: PlotSettings::default(),
         }
+    }
+
+    /// Names of the variants; empty without that axis.
+    pub fn variants(&self) -> Vec<String> {
+        let variants = self.axes.iter().flat_map(|axis| &axis.variants);
+        variants.map(|variant| variant.name.clone()).collect()
+    }
+
+    /// The scene of a variant, by its place; without one that from which all points start.
+    pub fn scene_of_variant(&self, place: Option<f64>) -> &Scene {
+        let mut variants = self.axes.iter().filter(|axis| axis.is_of_variants());
+        let variant = place.and_then(|place| variants.next()?.variant(place));
+        variant.map_or(&self.scene, |variant| &variant.scene)
     }
 
     /// The sweep of a scene that takes no time, to test with.

@@ -81,12 +81,13 @@ impl<'a> Pool<'a> {
 mod tests {
     use super::*;
     use crate::dem;
+    use crate::grid::Axis;
     use crate::run::{self, Run};
     use crate::simulation::BuildError;
     use crate::store::{self, Lease};
     use crate::sweep::failures::FailureTable;
-    use crate::sweep::{Axis, Claim, Failure, Job, read_failures};
     use crate::sweep::{BackendError, Begin, Event, LocalThreads, Status};
+    use crate::sweep::{Claim, Failure, Job, read_failures};
     use std::ops::ControlFlow;
     use std::sync::Mutex;
     use std::sync::atomic::{AtomicBool, Ordering};
@@ -94,11 +95,8 @@ mod tests {
 
     fn sweep() -> (Sweep, Vec<Job>) {
         let falling = Sweep::of_falling_sphere();
-        let axis = Axis {
-            key: "gravity.acceleration".to_owned(),
-            name: "acceleration".to_owned(),
-            values: vec![1.0, 2.0, 3.0, 4.0],
-        };
+        let values = vec![1.0, 2.0, 3.0, 4.0];
+        let axis = Axis::of_numbers("gravity.acceleration", "acceleration", values);
         let job = |&value: &f64| {
             let mut scene = falling.scene.clone();
             scene.dem.effects.gravity.as_mut().unwrap().acceleration = value;
@@ -155,7 +153,10 @@ mod tests {
                 .reason
                 .contains("the scene has no contact law")
         );
-        assert_eq!(read_failures(&folder.failures()).unwrap(), report.failures);
+        assert_eq!(
+            read_failures(&sweep.axes, &folder.failures()).unwrap(),
+            report.failures
+        );
 
         // The failed ones, and only these, are run again, and then no failure is left.
         let plan = Plan::new(&folder, jobs, 2).unwrap();
@@ -301,9 +302,9 @@ mod tests {
         };
         let plan = Plan::new(&folder, jobs.clone(), 1).unwrap();
         assert_eq!(stopped.run(&plan).unwrap().left, 4);
-        let noted = || read_failures(&folder.failures()).unwrap();
+        let noted = || read_failures(&sweep.axes, &folder.failures()).unwrap();
         assert_eq!(noted(), [Failure::new(&jobs[1], "of another process")]);
-        let status = Status::of(&folder, &plan).unwrap();
+        let status = Status::of(&folder, &sweep.axes, &plan).unwrap();
         assert_eq!((status.failures.len(), status.left), (1, 3));
 
         // Two jobs fail here; the record of one is made by another process before the end.
@@ -330,7 +331,7 @@ mod tests {
         assert_eq!((report.finished, report.failures.len()), (2, 2));
         assert_eq!(noted(), report.failures[..1]);
         let plan = Plan::new(&folder, jobs.clone(), 1).unwrap();
-        let status = Status::of(&folder, &plan).unwrap();
+        let status = Status::of(&folder, &sweep.axes, &plan).unwrap();
         assert_eq!((status.done, status.failures.len(), status.left), (3, 1, 0));
     }
 
@@ -367,7 +368,7 @@ mod tests {
                 let plan = Plan::new(&folder, jobs.clone(), 1).unwrap();
                 let report = Pool::new(&folder, &sweep, &Failing).run(&plan).unwrap();
                 assert_eq!(report.failures.len() as u64, count);
-                let status = Status::of(&folder, &plan).unwrap();
+                let status = Status::of(&folder, &sweep.axes, &plan).unwrap();
                 assert_eq!((status.failures.len() as u64, status.left), (count, 0));
             }
             begin.elapsed().as_secs_f64() / count as f64

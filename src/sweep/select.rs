@@ -1,6 +1,7 @@
 //! Choosing points of a sweep by the values of its axes.
 
 use super::Sweep;
+use crate::grid::{Axis, VARIANT};
 use crate::scene::LARGEST_SEED;
 use std::fmt::{self, Display};
 
@@ -15,6 +16,8 @@ const FEW: usize = 12;
 pub struct Selection {
     /// Values, each with the name of its axis or the path of its key.
     pub values: Vec<(String, f64)>,
+    /// The name of the variant, if one is meant.
+    pub variant: Option<String>,
     /// The seed, if one is meant.
     pub seed: Option<u64>,
 }
@@ -65,13 +68,20 @@ pub fn parse_point(text: &str) -> Result<Selection, SelectError> {
         let (name, value) = part.split_once('=').ok_or_else(syntax)?;
         let (name, value) = (name.trim(), value.trim());
         let is_known = |(known, _): &(String, f64)| known == name;
-        if selection.values.iter().any(is_known) || (name == SEED && selection.seed.is_some()) {
+        let is_repeated = match name {
+            SEED => selection.seed.is_some(),
+            VARIANT => selection.variant.is_some(),
+            _ => selection.values.iter().any(is_known),
+        };
+        if is_repeated {
             return Err(SelectError::Repeated(name.to_owned()));
         }
         if name == SEED {
             let seed = value.parse().ok().filter(|seed| *seed <= LARGEST_SEED);
             let seed = seed.ok_or_else(|| SelectError::Seed(value.to_owned()))?;
             selection.seed = Some(seed);
+        } else if name == VARIANT && !value.is_empty() {
+            selection.variant = Some(value.to_owned());
         } else {
             let value = value.parse().ok().filter(|value: &f64| value.is_finite());
             let value = value.ok_or_else(syntax)?;
@@ -86,7 +96,11 @@ impl Display for Selection {
         let values = self.values.iter();
         let values = values.map(|(name, value)| format!("{name} = {value}"));
         let seed = self.seed.map(|seed| format!("{SEED} = {seed}"));
-        let parts: Vec<String> = values.chain(seed).collect();
+        let variant = self
+            .variant
+            .iter()
+            .map(|name| format!("{VARIANT} = {name}"));
+        let parts: Vec<String> = values.chain(variant).chain(seed).collect();
         formatter.write_str(&parts.join(", "))
     }
 }
@@ -101,13 +115,9 @@ impl Sweep {
         let mut chosen = self.clone();
         let mut named = Vec::new();
         for (name, value) in &point.values {
-            let is_named = |axis: &super::Axis| axis.name == *name || axis.key == *name;
+            let is_named = |axis: &Axis| axis.name == *name || axis.key == *name;
             let Some(place) = self.axes.iter().position(is_named) else {
-                let known = self.axes.iter().map(|axis| axis.name.as_str());
-                return Err(SelectError::Axis {
-                    name: name.clone(),
-                    known: known.collect::<Vec<_>>().join(", "),
-                });
+                return Err(no_axis(&self.axes, name));
             };
             if named.contains(&place) {
                 return Err(SelectError::Repeated(name.clone()));
@@ -120,6 +130,19 @@ impl Sweep {
             };
             chosen.axes[place].values = vec![*known];
         }
+        if let Some(name) = &point.variant {
+            let axis = chosen.axes.iter_mut().find(|axis| axis.is_of_variants());
+            let axis = axis.ok_or_else(|| no_axis(&self.axes, VARIANT))?;
+            let place = axis.place_of(name).filter(|it| axis.values.contains(it));
+            let Some(place) = place else {
+                return Err(SelectError::Value {
+                    name: VARIANT.to_owned(),
+                    value: name.clone(),
+                    values: format!("it takes {}", axis.words().join(", ")),
+                });
+            };
+            axis.values = vec![place];
+        }
         if let Some(seed) = point.seed {
             chosen.seeds.retain(|known| *known == seed);
             if chosen.seeds.is_empty() {
@@ -127,6 +150,15 @@ impl Sweep {
             }
         }
         Ok(chosen)
+    }
+}
+
+/// The error of an axis that the sweep does not have.
+fn no_axis(axes: &[Axis], name: &str) -> SelectError {
+    let known = axes.iter().map(|axis| axis.name.as_str());
+    SelectError::Axis {
+        name: name.to_owned(),
+        known: known.collect::<Vec<_>>().join(", "),
     }
 }
 
@@ -156,15 +188,10 @@ fn never<T: Copy + PartialOrd + Display>(name: &str, value: T, known: &[T]) -> S
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sweep::Axis;
     use proptest::prelude::*;
 
     fn sweep(values: Vec<f64>, seeds: Vec<u64>) -> Sweep {
-        let axis = Axis {
-            key: "gravity.acceleration".to_owned(),
-            name: "gravity".to_owned(),
-            values,
-        };
+        let axis = Axis::of_numbers("gravity.acceleration", "gravity", values);
         Sweep {
             axes: vec![axis],
             seeds,

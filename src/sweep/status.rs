@@ -1,6 +1,7 @@
 //! How far the sweep of a results folder is.
 
 use super::{Failure, Folder, FolderError, Job, Plan, Standing, read_failures};
+use crate::grid::Axis;
 use crate::record::Outcome;
 use crate::run;
 use crate::store;
@@ -63,13 +64,13 @@ impl UnderWay {
 }
 
 impl Status {
-    /// The status of the jobs of a sweep, as planned for `folder`.
+    /// The status of the jobs of a sweep with these axes, as planned for `folder`.
     ///
     /// # Errors
     /// If the table of failed jobs cannot be read.
-    pub fn of(folder: &Folder, plan: &Plan) -> Result<Self, FolderError> {
+    pub fn of(folder: &Folder, axes: &[Axis], plan: &Plan) -> Result<Self, FolderError> {
         let left_ids: HashSet<_> = plan.pending().map(|job| &job.id).collect();
-        let mut failures = read_failures(&folder.failures())?;
+        let mut failures = read_failures(axes, &folder.failures())?;
         failures.retain(|failure| left_ids.contains(&failure.id));
         let failed: HashSet<_> = failures.iter().map(|failure| failure.id.clone()).collect();
         let is_bad = |standing: &Standing| {

@@ -1,4 +1,4 @@
-//! `phase ablate`: each effect taken away, and whether the scene needs it.
+//! Ablations: each effect taken away, and whether the scene needs it.
 
 use crate::support::Workplace;
 use serde_json::Value;
@@ -47,8 +47,9 @@ fn what_decides_is_found_and_what_does_not_is_called_not_needed() {
     let place = Workplace::new();
     place.write("scene.toml", SCENE);
     let arguments = [
-        "ablate",
+        "study",
         "scene.toml",
+        "--ablate",
         "--seeds",
         "60",
         "--tolerance",
@@ -57,20 +58,21 @@ fn what_decides_is_found_and_what_does_not_is_called_not_needed() {
         "--json",
     ];
     let answer: Value = serde_json::from_str(&place.phase(&arguments).code(0).stdout).unwrap();
+    let found = &answer["finding"];
     let verdict = |name: &str| {
-        let all = answer["ablated"].as_array().unwrap().iter();
+        let all = found["ablated"].as_array().unwrap().iter();
         let mut own = all.filter(|it| it["name"] == name);
         own.next().unwrap_or_else(|| panic!("{name}: {answer:#}"))["verdict"].clone()
     };
     assert_eq!(verdict("restitution to elastic"), "needed");
     // The sieves of a tank need gravity.
-    let skipped = answer["skipped"].as_array().unwrap();
+    let skipped = found["skipped"].as_array().unwrap();
     assert!(
         skipped.iter().any(|it| it["name"] == "gravity off"),
         "{skipped:?}"
     );
     assert_eq!(verdict("spin damping off"), "not-needed");
-    let sentence = answer["finding"]["sentence"].as_str().unwrap();
+    let sentence = found["finding"]["sentence"].as_str().unwrap();
     assert!(
         sentence.starts_with("This scene can do with: spin damping off"),
         "{sentence}"
@@ -82,7 +84,7 @@ fn what_decides_is_found_and_what_does_not_is_called_not_needed() {
     // All of it again costs nothing.
     let again: Value = serde_json::from_str(&place.phase(&arguments).code(0).stdout).unwrap();
     assert_eq!(again["run_now"], 0);
-    assert_eq!(again["ablated"], answer["ablated"]);
+    assert_eq!(again["finding"]["ablated"], found["ablated"]);
 }
 
 /// Symptom: runs of pairs were made again by every command. Cause: the table was written for single
@@ -94,8 +96,9 @@ fn runs_of_pairs_and_of_other_seeds_are_kept() {
     place.write("scene.toml", SCENE);
     let run = |seeds: &str| -> Value {
         let arguments = [
-            "ablate",
+            "study",
             "scene.toml",
+            "--ablate",
             "--seeds",
             seeds,
             "--no-plot",
@@ -118,16 +121,16 @@ fn a_scene_without_effects_and_a_single_seed_are_refused() {
            [time]\ndt = 1e-3\nduration = 0.01\nframe_interval = 1e-3\n";
     place.write("bare.toml", &bare);
     place
-        .phase(&["ablate", "bare.toml"])
+        .phase(&["study", "bare.toml", "--ablate"])
         .code(2)
         .complains("the scene as it is cannot be compared");
     place.write("scene.toml", SCENE);
     place
-        .phase(&["ablate", "scene.toml", "--seeds", "1"])
+        .phase(&["study", "scene.toml", "--ablate", "--seeds", "1"])
         .code(2)
         .complains("from 3");
     place
-        .phase(&["ablate", "nowhere.toml"])
+        .phase(&["study", "nowhere.toml", "--ablate"])
         .code(2)
         .complains("nowhere.toml");
 }
@@ -143,9 +146,9 @@ fn what_takes_far_more_work_is_no_simplification() {
         .replace("dt = 2e-4", "dt = \"auto\"")
         .replace("duration = 0.4", "duration = 0.04");
     place.write("scene.toml", &stiff);
-    let arguments = ["ablate", "scene.toml", "--no-pairs", "--json"];
+    let arguments = ["study", "scene.toml", "--ablate", "--no-pairs", "--json"];
     let answer: Value = serde_json::from_str(&place.phase(&arguments).code(0).stdout).unwrap();
-    let skipped = answer["skipped"].as_array().unwrap();
+    let skipped = answer["finding"]["skipped"].as_array().unwrap();
     let coulomb = skipped
         .iter()
         .find(|it| it["name"] == "mindlin friction to coulomb")
@@ -155,4 +158,51 @@ fn what_takes_far_more_work_is_no_simplification() {
         reason.contains("times the work of the scene as it is"),
         "{reason}"
     );
+}
+
+#[test]
+fn a_file_or_an_option_asks_for_an_ablation() {
+    let place = Workplace::new();
+    place.write("scene.toml", SCENE);
+    place
+        .phase(&["study", "scene.toml"])
+        .code(2)
+        .complains("this is a scene, not a study")
+        .complains("with --ablate it is a study of the effects that it needs");
+    let unknown = ["study", "scene.toml", "--ablate=spin,air"];
+    place
+        .phase(&unknown)
+        .code(2)
+        .complains("--ablate=air: no simplification has that word in its name")
+        .complains("spin damping off");
+
+    let sweep = "study = \"ablation\"\nscene = \"scene.toml\"\nseeds.count = 3\n";
+    place.write("sweep.toml", sweep);
+    let whole = ["study", "sweep.toml", "--no-plot", "--no-pairs", "--json"];
+    let of_file: Value = serde_json::from_str(&place.phase(&whole).code(0).stdout).unwrap();
+    let one = [
+        "study",
+        "sweep.toml",
+        "--ablate=spin damping",
+        "--no-plot",
+        "--json",
+    ];
+    let of_option: Value = serde_json::from_str(&place.phase(&one).code(0).stdout).unwrap();
+    let ablated = of_option["finding"]["ablated"].as_array().unwrap();
+    assert_eq!(
+        (ablated.len(), &ablated[0]["name"]),
+        (1, &"spin damping off".into())
+    );
+    // Its runs are among those of all effects.
+    assert_eq!(of_option["run_now"], 0);
+    assert!(of_file["runs"].as_u64() > of_option["runs"].as_u64());
+
+    place.write(
+        "study.toml",
+        "study = \"stability\"\nscene = \"scene.toml\"\n",
+    );
+    place
+        .phase(&["study", "study.toml", "--ablate"])
+        .code(2)
+        .complains("this is a study of its own, which has no ablation");
 }

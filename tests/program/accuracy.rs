@@ -1,4 +1,4 @@
-//! `phase accuracy`: ladders of settings, their costs and errors, and the sentence.
+//! Studies of accuracy: ladders of settings, their costs and errors, and the sentence.
 
 use crate::support::Workplace;
 use serde_json::Value;
@@ -49,11 +49,11 @@ set = { "time.dt" = 6.25e-6 }
 
 fn evaluation(place: &Workplace, file: &str) -> Value {
     let printed = place
-        .phase(&["accuracy", file, "--no-plot", "--json"])
+        .phase(&["study", file, "--no-plot", "--json"])
         .code(0)
         .stdout;
     let answer: Value = serde_json::from_str(&printed).unwrap();
-    answer["evaluation"].clone()
+    answer["finding"].clone()
 }
 
 #[test]
@@ -111,7 +111,7 @@ fn a_key_without_influence_has_no_order() {
         (&Value::Null, &Value::from(0.1))
     );
     place
-        .phase(&["accuracy", "study.toml"])
+        .phase(&["study", "study.toml"])
         .code(0)
         .says("in guards.overlap: none, no measurable influence");
     let figure = place.read("results/accuracy/study/work-precision.svg");
@@ -130,11 +130,11 @@ fn runs_that_are_there_are_not_made_again() {
     let place = Workplace::new();
     place.write("study.toml", &format!("{MOTION}{SCENE}"));
     let first = place
-        .phase(&["accuracy", "study.toml", "--json"])
+        .phase(&["study", "study.toml", "--json"])
         .code(0)
         .stdout;
     let again = place
-        .phase(&["accuracy", "study.toml", "--json"])
+        .phase(&["study", "study.toml", "--json"])
         .code(0)
         .stdout;
     let [first, again]: [Value; 2] = [first, again].map(|it| serde_json::from_str(&it).unwrap());
@@ -144,14 +144,14 @@ fn runs_that_are_there_are_not_made_again() {
         (&again["done_before"], &again["run_now"]),
         (&5.into(), &0.into())
     );
-    let errors = |it: &Value| it["evaluation"]["outcomes"][2]["errors"].clone();
+    let errors = |it: &Value| it["finding"]["outcomes"][2]["errors"].clone();
     assert_eq!(errors(&first), errors(&again));
     // A study that was killed left the rows so far: the others are made, to the same errors.
     let table = place.read("results/accuracy/study/runs.csv");
     let kept: Vec<&str> = table.lines().take(3).collect();
     place.write("results/accuracy/study/runs.csv", &(kept.join("\n") + "\n"));
     let rest = place
-        .phase(&["accuracy", "study.toml", "--json"])
+        .phase(&["study", "study.toml", "--json"])
         .code(0)
         .stdout;
     let rest: Value = serde_json::from_str(&rest).unwrap();
@@ -163,13 +163,13 @@ fn runs_that_are_there_are_not_made_again() {
     // A table with other columns was written over, and its rows were lost.
     let foreign = "setting,comfort\nsoft,3\n";
     place.write("results/accuracy/study/runs.csv", foreign);
-    let refused = place.phase(&["accuracy", "study.toml"]).code(2).stderr;
+    let refused = place.phase(&["study", "study.toml"]).code(2).stderr;
     assert!(
         refused.contains("its columns are not those of this study"),
         "{refused}"
     );
     assert_eq!(place.read("results/accuracy/study/runs.csv"), foreign);
-    let anew = ["accuracy", "study.toml", "--force"];
+    let anew = ["study", "study.toml", "--force"];
     place.phase(&anew).code(0);
     for file in [
         "runs.csv",
@@ -248,14 +248,11 @@ fn bad_studies_are_refused_with_line_and_fix() {
         ),
     ] {
         place.write("bad.toml", text);
-        for command in ["accuracy", "check"] {
+        for command in ["study", "check"] {
             let refused = place.phase(&[command, "bad.toml"]).code(2);
             refused.complains(message).complains("bad.toml");
         }
     }
-    place.write("bad.toml", "study = \"stability\"\n");
-    let refused = place.phase(&["accuracy", "bad.toml"]).code(2);
-    refused.complains("`phase stability bad.toml` runs it");
 }
 
 /// "Spin" friction is an impulse mu per step.
@@ -281,4 +278,42 @@ fn the_impulse_of_spin_friction_is_held_and_said() {
     );
     let refused = place.phase(&["check", "auto.toml", "--no-trial"]).code(2);
     refused.complains("another step is another friction");
+}
+
+/// No search changes the motion, so that runs of all of them have one identity.
+#[test]
+fn steps_of_each_search_are_timed_by_themselves() {
+    let place = Workplace::new();
+    let study = r#"
+study = "accuracy"
+step_time = ["count", "length"]
+base.set = { neighbours = { search = "cells", length = 0.02 } }
+seeds.count = 3
+
+[[axis]]
+key = "spheres.count"
+values = [4, 8]
+
+[[variant]]
+name = "all pairs"
+set = { neighbours = { search = "all-pairs" } }
+
+[[ladder]]
+key = "neighbours.length"
+values = [0.01, 0.04]
+"#;
+    place.write("times.toml", &format!("{study}{SCENE}"));
+    place
+        .phase(&["study", "times.toml"])
+        .code(0)
+        .says("24 runs: 24 made now");
+    for (x, line) in [("count", "all pairs"), ("length", "count = 4")] {
+        let figure = place.read(&format!("results/accuracy/times/step-time-{x}.svg"));
+        let texts = crate::support::texts(&figure);
+        assert!(texts.iter().any(|text| text.contains(line)), "{texts:?}");
+    }
+    place
+        .phase(&["study", "times.toml", "--no-plot"])
+        .code(0)
+        .says("24 runs: 0 made now");
 }

@@ -1,17 +1,14 @@
 //! Sweeps that were never run, their tables, and figures of these.
 
 use phase::classify::{Family, LabelRow, LabelTable, Sieves, Verdict};
+use phase::grid::Axis;
 use phase::plot::Source;
 use phase::record::Program;
 use phase::scene::Scene;
-use phase::sweep::{Axis, PlotSettings, Sweep};
+use phase::sweep::{PlotSettings, Sweep};
 
 pub(crate) fn axis((key, name): (&str, &str), values: &[f64]) -> Axis {
-    Axis {
-        key: key.to_owned(),
-        name: name.to_owned(),
-        values: values.to_vec(),
-    }
+    Axis::of_numbers(key, name, values.to_vec())
 }
 
 pub(crate) fn sweep(title: &str, scene: Scene, axes: Vec<Axis>, seeds: &[u64]) -> Sweep {
@@ -58,6 +55,7 @@ pub(crate) fn table(
     LabelTable {
         family,
         axes: sweep.axes.iter().map(|axis| axis.name.clone()).collect(),
+        variants: sweep.variants(),
         rows,
     }
 }

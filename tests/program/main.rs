@@ -43,3 +43,4 @@ mod stability_study;
 mod suggestions;
 #[path = "../support/mod.rs"]
 mod support;
+mod variants;

@@ -2,27 +2,30 @@
 //! on with like sweeps.
 
 use crate::support::Workplace;
-use phase::scene::Integrator;
-use phase::study::stability::read_stability;
-use phase::study::stability::{self, Label, Report, Row, Study, Theory, Trials};
-use phase::sweep::{Event, LocalThreads, Wishes};
+use phase::classify::Label;
+use phase::dem::timestep::largest_stable;
+use phase::scene::Scene;
+use phase::study::comparison::{KnownRuns, RunRow, StudyReport, StudyRuns, read_runs};
+use phase::study::stability::{self, StabilityStudy};
+use phase::sweep::{Event, Folder, LocalThreads, Wishes};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-fn study(text: &str) -> Study {
+fn study(text: &str) -> StabilityStudy {
     stability::from_str(text, Path::new("study.toml")).unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn run(study: &Study) -> Vec<Row> {
+/// The rows of all runs, in the order of the jobs.
+fn run(study: &StabilityStudy) -> Vec<RunRow> {
     let place = tempfile::tempdir().unwrap();
-    run_into(study, &place.path().join("stability.csv"), Vec::new()).rows
+    let report = run_into(study, place.path(), KnownRuns::default());
+    report.rows.into_iter().flatten().collect()
 }
 
-fn run_into(study: &Study, table: &Path, known: Vec<Row>) -> Report {
-    let trials = Trials {
-        study,
-        jobs: &study.jobs().unwrap(),
-        table,
+fn run_into(study: &StabilityStudy, folder: &Path, known: KnownRuns) -> StudyReport {
+    let runs = StudyRuns {
+        comparison: &study.comparison,
+        folder: &Folder::new(folder),
         backend: &LocalThreads::new(2),
         wishes: Wishes {
             stop: &AtomicBool::new(false),
@@ -30,26 +33,37 @@ fn run_into(study: &Study, table: &Path, known: Vec<Row>) -> Report {
             watch: &|_| {},
         },
     };
-    trials.run(known).unwrap()
+    runs.run(known).unwrap()
+}
+
+fn read(study: &StabilityStudy, folder: &Path) -> KnownRuns {
+    read_runs(&study.comparison, &StudyRuns::table(&Folder::new(folder))).unwrap()
+}
+
+/// The scene of the runs of an integrator at a point.
+fn scene_at(study: &StabilityStudy, integrator: &str, values: [f64; 2]) -> Scene {
+    let mut settings = study.comparison.settings.iter();
+    let setting = settings.find(|it| it.name == integrator).unwrap();
+    study.frames.scene_at(&setting.sweep, &values).unwrap()
 }
 
 /// The largest stable and the least other step of an integrator at a value of the second axis.
 /// Between them there is nothing: all below are stable, and none above is.
-fn border(rows: &[Row], integrator: Integrator, value: f64) -> [f64; 2] {
-    let own = rows
-        .iter()
-        .filter(|row| row.integrator == integrator && row.values[1] == value);
+fn border(study: &StabilityStudy, rows: &[RunRow], integrator: &str, value: f64) -> [f64; 2] {
     let (mut stable, mut broken) = (0.0_f64, f64::INFINITY);
-    for row in own {
+    for (job, row) in study.comparison.jobs.iter().zip(rows) {
+        let time = &job.scene.time;
+        if time.integrator.name() != integrator || job.values[1] != value {
+            continue;
+        }
         match row.label {
-            Label::Stable => stable = stable.max(row.time_step),
-            _ => broken = broken.min(row.time_step),
+            Label::STABLE => stable = stable.max(time.dt),
+            _ => broken = broken.min(time.dt),
         }
     }
-    let name = integrator.name();
     assert!(
         stable < broken,
-        "{name}, {value}: {stable:e} and {broken:e}"
+        "{integrator}, {value}: {stable:e} and {broken:e}"
     );
     [stable, broken]
 }
@@ -79,8 +93,8 @@ const OSCILLATOR: &str = r#"
 
 /// The limit of a pair, at half of the stiffness and damping: that of one sphere and the floor,
 /// which is twice as heavy as a pair.
-fn limit_on_the_floor(study: &Study, damping: f64, integrator: Integrator) -> f64 {
-    let scene = study.scene_at(&[1e-3, damping], integrator).unwrap();
+fn limit_on_the_floor(study: &StabilityStudy, damping: f64, integrator: &str) -> f64 {
+    let scene = scene_at(study, integrator, [1e-3, damping]);
     let halves = [
         ("contact.stiffness", 80.0),
         ("contact.damping", 0.5 * damping),
@@ -91,8 +105,8 @@ fn limit_on_the_floor(study: &Study, damping: f64, integrator: Integrator) -> f6
         let (table, key) = key.split_once('.').unwrap();
         tree[table][key] = value.into();
     }
-    let scene = serde_json::from_value(tree).unwrap();
-    Theory::of(&scene).decisive.unwrap().seconds
+    let scene: Scene = serde_json::from_value(tree).unwrap();
+    largest_stable(&scene).unwrap().seconds
 }
 
 #[test]
@@ -101,11 +115,11 @@ fn an_oscillator_breaks_at_the_limit_of_its_integrator() {
     let study = study(OSCILLATOR);
     let rows = run(&study);
     let mut limits = Vec::new();
-    for &integrator in &study.integrators {
+    for integrator in study.comparison.settings.iter().map(|it| &it.name) {
         for damping in [0.0, 0.05, 0.1] {
             let limit = limit_on_the_floor(&study, damping, integrator);
-            let [stable, broken] = border(&rows, integrator, damping);
-            let name = format!("{}, damping {damping}", integrator.name());
+            let [stable, broken] = border(&study, &rows, integrator, damping);
+            let name = format!("{integrator}, damping {damping}");
             // The border is in the cell of the limit or in one next to it.
             assert!(
                 stable < 1.011 * limit && broken > 0.989 * limit,
@@ -150,10 +164,10 @@ fn sub_steps_leave_the_displacement() {
     );
     let rows = run(&study);
     for radius in [0.002, 0.004] {
-        let scene = study.scene_at(&[1e-3, radius], Integrator::AdaptiveVerlet);
-        let limit = Theory::of(&scene.unwrap()).decisive.unwrap();
+        let scene = scene_at(&study, "adaptive-verlet", [1e-3, radius]);
+        let limit = largest_stable(&scene).unwrap();
         assert_eq!((limit.name, limit.seconds), ("displacement", radius));
-        let [stable, broken] = border(&rows, Integrator::AdaptiveVerlet, radius);
+        let [stable, broken] = border(&study, &rows, "adaptive-verlet", radius);
         assert!(
             stable <= 1.000_001 * radius && broken > radius,
             "{stable:e} to {broken:e}"
@@ -186,17 +200,18 @@ time = { dt = 1e-5, duration = 0.5, frame_interval = 1e-2 }
 #[test]
 fn a_study_that_is_stopped_goes_on_where_it_was() {
     let study = study(TINY);
-    let jobs = study.jobs().unwrap();
     let place = tempfile::tempdir().unwrap();
     let (whole, cut) = (place.path().join("whole"), place.path().join("cut"));
-    let expected = run_into(&study, &whole, Vec::new());
-    assert_eq!((expected.rows.len(), expected.left), (12, 0));
+    for folder in [&whole, &cut] {
+        std::fs::create_dir(folder).unwrap();
+    }
+    let expected = run_into(&study, &whole, KnownRuns::default());
+    assert_eq!((expected.made.finished, expected.made.left), (12, 0));
 
     let (stop, ended) = (AtomicBool::new(false), AtomicUsize::new(0));
-    let stopping = Trials {
-        study: &study,
-        jobs: &jobs,
-        table: &cut,
+    let stopping = StudyRuns {
+        comparison: &study.comparison,
+        folder: &Folder::new(&cut),
         backend: &LocalThreads::new(1),
         wishes: Wishes {
             stop: &stop,
@@ -209,55 +224,58 @@ fn a_study_that_is_stopped_goes_on_where_it_was() {
             },
         },
     };
-    let report = stopping.run(Vec::new()).unwrap();
-    assert_eq!((report.rows.len(), report.left), (5, 7));
-    let known = read_stability(&study.axes, &cut).unwrap();
-    assert!(known.iter().all(|row| expected.rows.contains(row)));
-    assert_eq!(known.len(), 5);
+    let made = stopping.run(KnownRuns::default()).unwrap().made;
+    assert_eq!((made.finished, made.left), (5, 7));
+    let known = read(&study, &cut);
+    assert_eq!((known.rows.len(), known.makers.len()), (5, 5));
 
     let report = run_into(&study, &cut, known);
-    assert_eq!((report.known, report.rows.len(), report.left), (5, 12, 0));
-    assert_eq!(std::fs::read(whole).unwrap(), std::fs::read(cut).unwrap());
+    assert_eq!((report.known, report.made.finished), (5, 7));
+    let but_times = |rows: Vec<RunRow>| {
+        let rows = rows.into_iter();
+        let rows = rows.map(|row| RunRow {
+            cpu_seconds: 0.0,
+            ..row
+        });
+        rows.collect::<Vec<_>>()
+    };
+    let [whole, cut] = [whole, cut].map(|it| but_times(read(&study, &it).rows));
+    assert_eq!(whole.len(), 12);
+    assert_eq!(whole, cut);
 }
 
 #[test]
 fn rows_are_taken_over_and_labelled_by_the_threshold() {
     let place = Workplace::new();
     place.write("drop.toml", TINY);
-    let first = place.phase(&["stability", "drop.toml"]).code(0);
-    let table = place.read("results/stability/drop/stability.csv");
+    let again = ["study", "drop.toml", "--no-plot"];
+    let table = || place.read("results/stability/drop/runs.csv");
+    let first = place.phase(&["study", "drop.toml"]).code(0);
+    let loose = table();
     first
         .says("12 runs: 12 made now")
         .says("results/stability/drop/stability.png");
-    place
-        .phase(&["stability", "drop.toml"])
-        .code(0)
-        .says("12 runs: 0 made now");
-    assert_eq!(table, place.read("results/stability/drop/stability.csv"));
+    place.phase(&again).code(0).says("12 runs: 0 made now");
+    assert_eq!(loose, table());
 
     // Whatever gains or loses energy at all is told apart by a threshold of nearly nothing.
     let stable = |table: &str| table.matches(",stable,").count();
     place.write("drop.toml", &format!("energy_gain = 1e-12\n{TINY}"));
-    place
-        .phase(&["stability", "drop.toml", "--no-plot"])
-        .code(0)
-        .says("12 runs: 0 made now");
-    let strict = place.read("results/stability/drop/stability.csv");
-    assert!(stable(&strict) < stable(&table), "{strict}");
+    place.phase(&again).code(0).says("12 runs: 0 made now");
+    let strict = table();
+    assert!(stable(&strict) < stable(&loose), "{strict}");
 
     place.write("drop.toml", TINY);
-    place
-        .phase(&["stability", "drop.toml", "--force", "--no-plot"])
-        .code(0)
-        .says("12 made now");
-    assert_eq!(table, place.read("results/stability/drop/stability.csv"));
+    let anew = ["study", "drop.toml", "--force", "--no-plot"];
+    place.phase(&anew).code(0).says("12 made now");
+    assert_eq!(stable(&loose), stable(&table()));
 }
 
 #[test]
 fn the_figure_has_a_panel_per_integrator_units_and_the_limit() {
     let place = Workplace::new();
     place.write("drop.toml", TINY);
-    place.phase(&["stability", "drop.toml", "-j", "1"]).code(0);
+    place.phase(&["study", "drop.toml", "-j", "1"]).code(0);
     let figure = place.read("results/stability/drop/stability.svg");
     for text in [
         "A drop",
@@ -277,45 +295,47 @@ fn the_figure_has_a_panel_per_integrator_units_and_the_limit() {
 fn a_table_that_is_none_is_refused() {
     let place = Workplace::new();
     place.write("drop.toml", TINY);
-    place
-        .phase(&["stability", "drop.toml", "--no-plot"])
-        .code(0);
-    let table = place.read("results/stability/drop/stability.csv");
-    let path = "results/stability/drop/stability.csv";
-    place.write(path, &table.replace("velocity-verlet", "velocity-verlat"));
-    place
-        .phase(&["stability", "drop.toml", "--no-plot"])
-        .code(2)
-        .complains("delete the file");
+    let run = ["study", "drop.toml", "--no-plot"];
+    place.phase(&run).code(0);
+    let path = "results/stability/drop/runs.csv";
+    let table = place.read(path);
+    place.write(path, &table.replace("lost-sphere", "lost"));
+    place.phase(&run).code(2).complains("delete the file");
+}
+
+/// The rows of a published study, in the order of the jobs.
+fn published(study: &StabilityStudy, name: &str) -> Vec<RunRow> {
+    read(study, &Path::new("results/stability").join(name)).rows
 }
 
 /// Part of the published cradle, made again.
 #[test]
 fn the_published_cradle_keeps_its_rows() {
-    let mut study = stability::load(Path::new("sweeps/stability/cradle.toml")).unwrap();
-    let published = Path::new("results/stability/cradle/stability.csv");
-    let published = read_stability(&study.axes, published).unwrap();
-    assert_eq!(published.len(), study.jobs().unwrap().len());
-    study.integrators = vec![Integrator::VelocityVerlet];
-    let own = |row: &Row| row.integrator == Integrator::VelocityVerlet;
-    let expected: Vec<Row> = published.into_iter().filter(own).collect();
-    assert!(expected.iter().any(|row| row.label == Label::EnergyGain));
-    assert_eq!(run(&study), expected);
+    let file = "sweeps/stability/cradle.toml";
+    let text = std::fs::read_to_string(file).unwrap();
+    let text = text.replace(
+        "study = \"stability\"\n",
+        "study = \"stability\"\nintegrators = [\"velocity-verlet\"]\n",
+    );
+    let own = stability::from_str(&text, Path::new(file)).unwrap();
+    let rows = published(&own, "cradle");
+    assert_eq!(rows.len(), own.comparison.jobs.len());
+    assert!(rows.iter().any(|row| row.label == Label::ENERGY_GAIN));
+    for (found, expected) in run(&own).iter().zip(&rows) {
+        assert_eq!(
+            (&found.id, found.label, &found.values),
+            (&expected.id, expected.label, &expected.values)
+        );
+    }
 }
 
 #[test]
 fn published_studies_are_those_that_are_shipped() {
     for name in ["cradle", "pile", "tank"] {
         let study = stability::load(Path::new(&format!("sweeps/stability/{name}.toml"))).unwrap();
-        let table = format!("results/stability/{name}/stability.csv");
-        let rows = read_stability(&study.axes, Path::new(&table)).unwrap();
-        let ids = |ids: Vec<&String>| ids.into_iter().cloned().collect::<Vec<_>>();
-        let jobs = study.jobs().unwrap();
-        let of_jobs = ids(jobs.iter().map(|job| &job.id).collect());
-        assert!(
-            of_jobs == ids(rows.iter().map(|row| &row.id).collect()),
-            "{name}"
-        );
+        let rows = published(&study, name);
+        let jobs = study.comparison.jobs.iter().map(|job| &job.id);
+        assert!(jobs.eq(rows.iter().map(|row| &row.id)), "{name}");
     }
 }
 
@@ -334,7 +354,7 @@ fn keys_that_a_study_does_not_use_do_not_refuse_it() {
     ] {
         let text = TINY.replace(from, to);
         assert_ne!(text, TINY);
-        assert_eq!(study(&text).jobs().unwrap(), own.jobs().unwrap(), "{to}");
+        assert_eq!(study(&text).comparison.jobs, own.comparison.jobs, "{to}");
     }
 }
 
@@ -358,15 +378,20 @@ fn a_step_longer_than_the_run_is_refused() {
 fn rows_of_another_study_are_not_lost() {
     let place = Workplace::new();
     place.write("drop.toml", TINY);
-    let run = ["stability", "drop.toml", "--no-plot"];
+    let run = ["study", "drop.toml", "--no-plot"];
     place.phase(&run).code(0);
-    let table = place.read("results/stability/drop/stability.csv");
     place.write("drop.toml", &TINY.replace("1e-2]", "2e-2]"));
-    place
-        .phase(&run)
-        .code(2)
-        .complains("of another study would be lost");
-    assert_eq!(place.read("results/stability/drop/stability.csv"), table);
+    place.phase(&run).code(0).says("12 runs: 4 made now");
+    place.write("drop.toml", TINY);
+    place.phase(&run).code(0).says("12 runs: 0 made now");
+
+    let table = place.read("results/stability/drop/runs.csv");
+    place.write(
+        "drop.toml",
+        &TINY.replace("time.dt\"", "time.dt\"\nname = \"h\""),
+    );
+    place.phase(&run).code(2).complains("other axes");
+    assert_eq!(place.read("results/stability/drop/runs.csv"), table);
     place.phase(&[&run[..], &["--force"]].concat()).code(0);
 }
 
@@ -375,13 +400,13 @@ fn rows_of_another_study_are_not_lost() {
 fn rows_of_another_build_are_told_of_until_they_are_made_anew() {
     let place = Workplace::new();
     place.write("drop.toml", TINY);
-    let again = ["stability", "drop.toml", "--no-plot"];
+    let again = ["study", "drop.toml", "--no-plot"];
     let quiet =
         |answer: crate::support::Answer| assert!(!answer.stderr.contains("made by"), "{answer:?}");
     place.phase(&again).code(0);
     quiet(place.phase(&again).code(0));
 
-    let path = "results/stability/drop/stability.makers.csv";
+    let path = "results/stability/drop/runs.makers.csv";
     let mut makers: Vec<String> = place.read(path).lines().map(str::to_owned).collect();
     for row in &mut makers[1..4] {
         let id = row.split(',').next().unwrap();

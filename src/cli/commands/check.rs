@@ -1,7 +1,7 @@
 //! `phase check`: validates a file and says what would run.
 
 mod accuracy;
-mod study;
+mod stability;
 mod walls;
 
 use crate::cli::console::Console;
@@ -13,11 +13,13 @@ use crate::cli::{format, job, labels, overlaps};
 use phase::cost::{Forecast, Leaves, forecast};
 use phase::dem::timestep::{Limit, StepMargin};
 use phase::document::LoadError;
+use phase::grid::{Axis, describe};
 use phase::run::Edits;
 use phase::scene::{FileKind, Scene, Start, Tank};
 use phase::study::{AnyFile, AnyStudy};
-use phase::sweep::{Axis, Job, Sweep, describe};
+use phase::sweep::{Job, Sweep};
 use serde::Serialize;
+use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -55,10 +57,14 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         AnyFile::Scene(scene) => (Sweep::of_scene(*scene), FileKind::Scene),
         AnyFile::Sweep(sweep) => (*sweep, FileKind::Sweep),
         AnyFile::Study(AnyStudy::Stability(study)) => {
-            return study::main(&study, arguments, workers, console);
+            return stability::main(&study, arguments, workers, console);
         }
         AnyFile::Study(AnyStudy::Accuracy(study)) => {
             return accuracy::main(&study, arguments, workers, console);
+        }
+        // The file of an ablation is one of a sweep.
+        AnyFile::Study(AnyStudy::Ablation(study)) => {
+            (study.comparison.settings[0].sweep.clone(), FileKind::Sweep)
         }
     };
     let jobs = sweep.jobs()?;
@@ -111,7 +117,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         kind: kind.name(),
         title: sweep.title.as_deref().or(scene.title.as_deref()),
         jobs: jobs.len(),
-        axes: &sweep.axes,
+        axes: sweep.axes.iter().map(AxisAnswer::of).collect(),
         seeds: &sweep.seeds,
         budget: sweep.refine.as_ref().map(|it| it.budget),
         spheres: scene.spheres.count,
@@ -182,6 +188,10 @@ fn describe_grid(title: Option<&String>, runs: &str, axes: &[Axis]) -> Vec<Strin
         None => runs.to_owned(),
     }];
     for axis in axes {
+        if axis.is_of_variants() {
+            lines.push(line(&axis.name, axis.words().join(", ")));
+            continue;
+        }
         let ends = match axis.values.as_slice() {
             [first, .., last] => format!("{first} to {last}, {} values", axis.values.len()),
             values => format!("{values:?}"),
@@ -295,6 +305,28 @@ fn print_forecast(
     Ok(forecast)
 }
 
+/// An axis of numbers or of variants, which are named.
+#[derive(Serialize)]
+struct AxisAnswer<'a> {
+    key: &'a str,
+    name: &'a str,
+    values: Vec<Value>,
+}
+
+impl<'a> AxisAnswer<'a> {
+    fn of(axis: &'a Axis) -> Self {
+        let value = |value: &f64| match axis.variant(*value) {
+            Some(variant) => variant.name.as_str().into(),
+            None => (*value).into(),
+        };
+        Self {
+            key: &axis.key,
+            name: &axis.name,
+            values: axis.values.iter().map(value).collect(),
+        }
+    }
+}
+
 /// What `--json` prints.
 #[derive(Serialize)]
 struct Answer<'a> {
@@ -302,7 +334,7 @@ struct Answer<'a> {
     kind: &'static str,
     title: Option<&'a str>,
     jobs: usize,
-    axes: &'a [Axis],
+    axes: Vec<AxisAnswer<'a>>,
     seeds: &'a [u64],
     /// Most runs of a refined sweep; `None` if the whole grid is run.
     budget: Option<usize>,
@@ -327,7 +359,7 @@ struct LimitAnswer {
     seconds: f64,
     decisive: bool,
     ratio: f64,
-    point: BTreeMap<String, f64>,
+    point: BTreeMap<String, Value>,
     seed: u64,
 }
 

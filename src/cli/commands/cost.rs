@@ -5,10 +5,11 @@ use crate::cli::exit::{Exit, Failure};
 use crate::cli::values;
 use crate::cli::{format, job, kind};
 use phase::cost::{PartCost, SweepCost, TriedJob};
+use phase::grid::{Axis, describe};
 use phase::record::Outcome;
 use phase::scene::FileKind;
-use phase::sweep::{Axis, describe};
 use serde::Serialize;
+use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -143,7 +144,7 @@ struct Row {
 /// A job that was run for it.
 #[derive(Serialize)]
 struct TriedAnswer {
-    point: BTreeMap<String, f64>,
+    point: BTreeMap<String, Value>,
     seed: u64,
     stands_for: usize,
     whole: bool,

@@ -1,7 +1,5 @@
 //! The commands: one file each. No command imports another.
 
-mod ablate;
-mod accuracy;
 mod check;
 mod classify;
 mod compare;
@@ -9,11 +7,9 @@ mod cost;
 mod export;
 mod fit;
 mod generate;
-mod neighbours;
 mod new;
 mod plot;
 mod run;
-mod stability;
 mod status;
 mod study;
 mod sweep;
@@ -34,12 +30,9 @@ pub(super) enum Command {
     View(view::Arguments),
     Check(check::Arguments),
     Cost(cost::Arguments),
-    Neighbours(neighbours::Arguments),
     Compare(compare::Arguments),
     Fit(fit::Arguments),
-    Stability(stability::Arguments),
-    Accuracy(accuracy::Arguments),
-    Ablate(ablate::Arguments),
+    Study(study::Arguments),
     Status(status::Arguments),
     Verify(verify::Arguments),
     New(new::Arguments),
@@ -63,12 +56,9 @@ impl Command {
             Self::View(arguments) => view::main(arguments, console),
             Self::Check(arguments) => check::main(arguments, console),
             Self::Cost(arguments) => cost::main(arguments, console),
-            Self::Neighbours(arguments) => neighbours::main(arguments, console),
             Self::Compare(arguments) => compare::main(arguments, console),
             Self::Fit(arguments) => fit::main(arguments, console),
-            Self::Stability(arguments) => stability::main(arguments, console),
-            Self::Accuracy(arguments) => accuracy::main(arguments, console),
-            Self::Ablate(arguments) => ablate::main(arguments, console),
+            Self::Study(arguments) => study::main(arguments, console),
             Self::Status(arguments) => status::main(arguments, console),
             Self::Verify(arguments) => verify::main(arguments, console),
             Self::New(arguments) => new::main(arguments, console),

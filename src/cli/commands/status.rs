@@ -6,9 +6,11 @@ use crate::cli::folders::{self, Entry};
 use crate::cli::job::{self, NamedJob};
 use crate::cli::options::Workers;
 use crate::cli::{format, refined};
+use phase::grid::{Axis, describe};
 use phase::refine::Finish;
-use phase::sweep::{Axis, Folder, Plan, Refining, Status, Sweep, UnderWay, describe, work};
+use phase::sweep::{Folder, Plan, Refining, Status, Sweep, UnderWay, work};
 use serde::Serialize;
+use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
@@ -43,7 +45,7 @@ impl FolderAnswer {
         let refining = folder.read_refining(&sweep)?;
         let jobs = sweep.jobs_so_far(refining.as_ref())?;
         let plan = Plan::new(folder, jobs, work::default_workers())?;
-        let status = Status::of(folder, &plan)?;
+        let status = Status::of(folder, &sweep.axes, &plan)?;
         console.result(format_args!(
             "{}: {}",
             folder.root().display(),
@@ -140,7 +142,7 @@ struct FolderAnswer {
 #[derive(Serialize)]
 struct UnderWayAnswer {
     id: String,
-    point: BTreeMap<String, f64>,
+    point: BTreeMap<String, Value>,
     seed: u64,
     frame: u64,
     frames: u64,

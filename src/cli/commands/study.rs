@@ -1,260 +1,257 @@
-//! What commands of studies share: their folder, their runs with progress, their failures.
+//! `phase study`: the runs of a study, and what follows from them.
 
-use crate::cli::console::{Console, name_first};
+mod ablation;
+mod accuracy;
+mod runs;
+mod stability;
+
+use crate::cli::builds;
+use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
-use crate::cli::folders::ANOTHER_FOLDER;
-use crate::cli::options::Workers;
-use crate::cli::progress::{Progress, Work};
-use crate::cli::{folders, format, interrupt, job};
-use phase::cost::{Forecast, Leaves, forecast};
-use phase::record::RunRecord;
-use phase::store::{self, Lock};
-use phase::study::comparison::Comparison;
-use phase::sweep::{self as sweeps, Axis, Event, Folder, FolderError, Job, Wishes, describe};
+use crate::cli::figures;
+use phase::plot::{PlotError, Svg};
+use phase::store::{self, StoreError};
+use phase::study::ablation::{AblationError, AblationOptions};
+use phase::study::comparison::{Comparison, KnownRuns, RunRow, StudyReport, StudyRuns, read_runs};
+use phase::study::{AnyStudy, StudyName};
+use runs::{Options, Place, Tally};
 use serde::Serialize;
-use std::collections::HashSet;
+use serde_json::Value;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Duration;
 
-/// Where and how the runs of a study are made.
+/// Make the runs of a study, and say what follows from them.
+///
+/// The file says which study it is (`study = "..."`): of `stability`, where integrators are stable
+/// over two keys of a scene; of `accuracy`, what settings of a scene cost in time and how wrong they
+/// are; an `ablation` of a sweep, which takes each effect away by itself, or down to its simpler
+/// law. With --ablate any scene or sweep is ablated. Runs whose row is in the table already are not
+/// made again.
 #[derive(clap::Args)]
-pub(super) struct Options {
-    /// The results folder [default: results/STUDY/NAME, with the name of the study or command, and
-    /// that of the file without .toml].
-    #[arg(short, long, value_name = "DIR")]
-    pub(super) out: Option<PathBuf>,
-    #[command(flatten)]
-    workers: Workers,
-    /// Make every run again, whatever the table holds.
-    #[arg(short, long)]
-    pub(super) force: bool,
-    /// Draw no figure.
+#[command(after_help = "\
+Examples: where do integrators break in Newton's cradle; how large may the time step of a collapse
+be; which effects decide the published diagram?
+  phase study sweeps/stability/cradle.toml
+  phase study sweeps/accuracy/collapse.toml
+  phase study sweeps/theoretical-9x9.toml --ablate --seeds 5
+
+The results folder holds runs.csv (one row per run), runs.makers.csv (which build made each row),
+a table of settings if the study has one, a file of JSON with all that was found, and figures as SVG
+and PNG.")]
+pub(crate) struct Arguments {
+    /// The study file (TOML); with --ablate a scene or sweep file.
+    file: PathBuf,
+    /// Take away the effects of a scene or sweep, one by one: all of them, or those whose names
+    /// hold one of these words.
+    #[arg(long, value_name = "WORDS", num_args = 0..=1, require_equals = true)]
+    #[arg(default_missing_value = "", value_delimiter = ',')]
+    ablate: Option<Vec<String>>,
+    /// Number of seeds at each point of an ablation [default: those of the sweep, or 5 if it has
+    /// fewer].
+    #[arg(short, long, value_name = "N", value_parser = three_or_more)]
+    seeds: Option<usize>,
+    /// Share of the labels that may change without an effect that an ablation calls not needed
+    /// [default: 0.05].
+    #[arg(long, value_name = "SHARE", value_parser = share)]
+    tolerance: Option<f64>,
+    /// Take away one effect at a time only; else two that matter are taken away at once too.
     #[arg(long)]
-    pub(super) no_plot: bool,
+    no_pairs: bool,
+    #[command(flatten)]
+    options: Options,
 }
 
-impl Options {
-    /// Number of runs at the same time.
-    pub(super) fn workers(&self) -> usize {
-        self.workers.count()
-    }
-}
-
-/// The folder of a study, which no other process writes to meanwhile.
-pub(super) struct Place {
-    pub(super) folder: Folder,
-    /// Is set when the command is to end.
-    pub(super) stop: &'static AtomicBool,
-    _lock: Lock,
-}
-
-impl Place {
-    /// Makes the folder for the results of a file, by default in that of the study. Refuses one in
-    /// which other programs have files of the names that the study writes: tables and the like, and
-    /// figures.
-    pub(super) fn open(
-        study: &str,
-        file: &Path,
-        options: &Options,
-        (tables, figures): (&[&str], &[&str]),
-        console: &Console,
-    ) -> Result<Self, Failure> {
-        let by_default = || {
-            let name = file.file_stem().unwrap_or_default();
-            Path::new("results").join(study).join(name)
-        };
-        let root = options.out.clone().unwrap_or_else(by_default);
-        let figures = figures.iter().filter(|_| !options.no_plot);
-        let tables = tables.iter().map(PathBuf::from);
-        let names = tables.chain(folders::files_of_figures(figures));
-        folders::refuse_foreign(&root, names, ANOTHER_FOLDER)?;
-        let stop = interrupt::stop_on_signal(console)?;
-        folders::make(&root)?;
-        let folder = Folder::new(&root);
-        let lock = folder.lock().map_err(|error| match error {
-            FolderError::Locked(_) => Failure::refused(error),
-            _ => Failure::failed(error),
-        })?;
-        store::remove_leftovers(&root).map_err(Failure::failed)?;
-        Ok(Self {
-            folder,
-            stop,
-            _lock: lock,
-        })
-    }
-
-    /// A file of the folder.
-    pub(super) fn file(&self, name: &str) -> PathBuf {
-        self.folder.root().join(name)
-    }
-
-    /// What is wished of the runs.
-    pub(super) fn wishes<'a>(&self, watch: &'a (dyn Fn(Event<'_>) + Sync)) -> Wishes<'a> {
-        Wishes {
-            stop: self.stop,
-            resume: true,
-            watch,
-        }
-    }
-
-    /// Whether runs are left because the command was told to end.
-    pub(super) fn is_interrupted(&self, left: usize) -> bool {
-        self.stop.load(Ordering::Relaxed) && left > 0
+fn three_or_more(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(number) if (3..=10_000).contains(&number) => Ok(number),
+        _ => Err(
+            "must be a whole number from 3 to 10000: fewer seeds tell nothing from noise".into(),
+        ),
     }
 }
 
-/// Makes the runs of a study by `run`, which gets a callback for events, and shows the progress.
-/// Returns the result of `run` and its duration (s). Runs for which `is_known` is true are done
-/// already.
-pub(super) fn with_progress<T>(
-    jobs: &[Job],
-    is_known: &dyn Fn(&Job) -> bool,
-    name: &(dyn Fn(&Job) -> String + Sync),
-    ended: &(dyn Fn(&Job, &RunRecord) -> String + Sync),
-    console: &Console,
-    run: impl FnOnce(&(dyn Fn(Event<'_>) + Sync)) -> T,
-) -> (T, f64) {
-    let done = jobs.iter().filter(|job| is_known(job));
-    let (jobs_done, steps_done) =
-        done.fold((0, 0), |(jobs, sum), job| (jobs + 1, sum + job.work()));
-    if jobs_done > 0 {
-        let runs = format::count(jobs.len(), "run");
-        console.note(format_args!("{jobs_done} of {runs} are done already"));
+fn share(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(share) if share > 0.0 && share <= 1.0 => Ok(share),
+        _ => Err("must be a number above 0, and 1 at most".to_owned()),
     }
-    let progress = Progress::new(
-        console,
-        Work {
-            jobs: jobs.len(),
-            jobs_done,
-            steps: jobs.iter().map(Job::work).sum(),
-            steps_done,
-            unit: job::unit_of(jobs),
-            head: String::new(),
+}
+
+pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
+    match arguments.load()? {
+        AnyStudy::Stability(study) => arguments.run(*study, console),
+        AnyStudy::Ablation(study) => arguments.run((*study, !arguments.no_pairs), console),
+        AnyStudy::Accuracy(study) => match accuracy::Compared::of(*study) {
+            Ok(study) => arguments.run(study, console),
+            Err(cases) => cases.run(arguments, console),
         },
-    );
-    let watch = |event: Event<'_>| job::tell(event, &progress, name, ended);
-    let result = run(&watch);
-    (result, progress.finish())
+    }
 }
 
-/// What the settings of a comparison will cost, each from a short trial of its own.
-pub(super) fn forecast_settings(
-    comparison: &Comparison,
-    workers: usize,
-    budget: Duration,
-) -> Result<Forecast, Failure> {
-    let settings = comparison.settings.len().max(1) as u32;
-    let mut known = HashSet::new();
-    let mut sum: Option<Forecast> = None;
-    for setting in &comparison.settings {
-        let jobs = setting.sweep.jobs().map_err(Failure::refused)?.into_iter();
-        let jobs: Vec<Job> = jobs.filter(|job| known.insert(job.id.clone())).collect();
-        if jobs.is_empty() {
-            continue;
-        }
-        let own = forecast(&jobs, workers, budget / settings, Leaves::Nothing);
-        let own = own.map_err(Failure::failed)?;
-        sum = Some(match sum {
-            None => own,
-            Some(sum) => {
-                let (work, seconds) = (sum.work + own.work, sum.seconds + own.seconds);
-                let spent = sum.work as f64 / sum.rate + own.work as f64 / own.rate;
-                Forecast {
-                    tried: sum.tried + own.tried,
-                    work,
-                    rate: work as f64 / spent,
-                    seconds,
-                    memory: sum.memory.max(own.memory),
-                    disk: None,
-                }
+/// A study of some kind.
+trait Study: Sized {
+    /// Which kind.
+    const NAME: StudyName;
+    /// Names of the figures.
+    fn figures(&self) -> Vec<String>;
+
+    /// What is run.
+    fn comparison(&self) -> &Comparison;
+
+    /// Says what is not run, and why.
+    fn note_skipped(&self, _: &Console) {}
+
+    /// The study with more runs, if these rows ask for them.
+    fn extended(&self, _: &[Option<RunRow>]) -> Result<Option<Self>, Failure> {
+        Ok(None)
+    }
+
+    /// What follows from the rows of all jobs.
+    fn conclude(&self, rows: &[Option<RunRow>]) -> Result<Conclusion, Failure>;
+}
+
+/// What follows from the runs of a study.
+struct Conclusion {
+    /// All of it.
+    json: Value,
+    /// What is printed.
+    text: String,
+    /// Writes the table of settings, if the study has one.
+    table: Option<Write>,
+    figures: Vec<(String, Result<Svg, PlotError>)>,
+}
+
+/// Writes a file.
+type Write = Box<dyn FnOnce(&Path) -> Result<(), StoreError>>;
+
+impl Arguments {
+    fn load(&self) -> Result<AnyStudy, Failure> {
+        let words = self.ablate.iter().flatten();
+        let options = AblationOptions {
+            seeds: self.seeds,
+            tolerance: self.tolerance.unwrap_or(0.05),
+            effects: words.filter(|it| !it.is_empty()).cloned().collect(),
+        };
+        let study = AnyStudy::load(&self.file, self.ablate.is_some(), options);
+        let study = study.map_err(|error: AblationError| Failure::refused(error))?;
+        let given = [
+            ("--seeds", self.seeds.is_some()),
+            ("--tolerance", self.tolerance.is_some()),
+            ("--no-pairs", self.no_pairs),
+        ];
+        match given.iter().find(|(_, is_given)| *is_given) {
+            Some((option, _)) if !matches!(study, AnyStudy::Ablation(_)) => {
+                Err(Failure::refused(format_args!(
+                    "{option} is of ablations; this study says it in {}",
+                    self.file.display()
+                )))
             }
-        });
-    }
-    sum.ok_or_else(|| Failure::refused("the study has no runs"))
-}
-
-/// A study that takes longer than this says so before it begins (s).
-const LONG: f64 = 86_400.0;
-
-/// Fewest sphere-steps per second of a worker: what takes less than a day with it is not tried.
-const SLOWEST_RATE: f64 = 5e5;
-
-/// Says so if what is left of a comparison will take longer than a day.
-pub(super) fn warn_of_days(
-    comparison: &Comparison,
-    is_known: &dyn Fn(&Job) -> bool,
-    workers: usize,
-    console: &Console,
-) {
-    let jobs = comparison.jobs.iter();
-    let all: u64 = comparison.jobs.iter().map(Job::work).sum();
-    let left: u64 = jobs.filter(|job| !is_known(job)).map(Job::work).sum();
-    if (left as f64) < LONG * SLOWEST_RATE * workers as f64 {
-        return;
-    }
-    // A setting that cannot be tried fails where it is run, and does not stop the others here.
-    let Ok(forecast) = forecast_settings(comparison, workers, Duration::from_secs(4)) else {
-        return;
-    };
-    let seconds = forecast.seconds * left as f64 / all.max(1) as f64;
-    if seconds > LONG {
-        console.warning(format_args!(
-            "this will take about {} with {}; it can be stopped and goes on with the same command, \
-             and fewer seeds, points or settings take less",
-            format::duration(seconds),
-            format::count(workers, "worker")
-        ));
-    }
-}
-
-/// What became of the runs of a study: what is printed of them, and what every `--json` has.
-#[derive(Default, Serialize)]
-pub(super) struct Tally {
-    pub(super) folder: PathBuf,
-    /// Runs in all.
-    pub(super) runs: usize,
-    pub(super) done_before: usize,
-    pub(super) run_now: usize,
-    pub(super) left: usize,
-    pub(super) failed: usize,
-    pub(super) interrupted: bool,
-    pub(super) workers: usize,
-    /// Time, and processor time (s).
-    pub(super) seconds: f64,
-    pub(super) cpu_seconds: f64,
-}
-
-impl Tally {
-    /// Says what was made, and what failed.
-    pub(super) fn print(&self, axes: &[Axis], failures: &[sweeps::Failure], console: &Console) {
-        console.result(format_args!(
-            "{}: {} made now in {}, {} of CPU time, {} before, {} left",
-            format::count(self.runs, "run"),
-            self.run_now,
-            format::duration(self.seconds),
-            format::duration(self.cpu_seconds),
-            self.done_before,
-            self.left
-        ));
-        let failures = failures.iter().map(|failure| {
-            let point = describe(axes, &failure.values, failure.seed);
-            format!("{point}: {}", failure.reason)
-        });
-        name_first(&failures.collect::<Vec<_>>(), |name| {
-            console.error(format_args!("failed: {name}"));
-        });
-        if self.left > 0 {
-            console.note("interrupted. Go on with the same command");
+            _ => Ok(study),
         }
     }
 
-    /// How the command ends.
-    pub(super) fn exit(&self) -> Exit {
-        match (self.interrupted, self.failed) {
-            (true, _) => Exit::Interrupted,
-            (false, 0) => Exit::Done,
-            (false, _) => Exit::Failed,
-        }
+    /// The folder of a study with figures of these names.
+    fn place(
+        &self,
+        study: StudyName,
+        figures: &[String],
+        console: &Console,
+    ) -> Result<Place, Failure> {
+        let name = study.name();
+        let tables = ["runs", "runs.makers", name].map(|it| format!("{it}.csv"));
+        let files = tables.into_iter().chain([format!("{name}.json")]);
+        Place::open(name, &self.file, &self.options, files, figures, console)
     }
+
+    fn run<S: Study>(&self, mut study: S, console: &Console) -> Result<Exit, Failure> {
+        let place = self.place(S::NAME, &study.figures(), console)?;
+        study.note_skipped(console);
+        let known = match self.options.force {
+            true => KnownRuns::default(),
+            false => known_runs(&study, &place)?,
+        };
+        let (mut report, mut tally) = self.make(&study, known, &place, console)?;
+        if tally.left == 0
+            && let Some(more) = study.extended(&report.rows)?
+        {
+            let known = known_runs(&more, &place)?;
+            (report, tally) = self.make(&more, known, &place, console)?;
+            study = more;
+        }
+        console.file(&StudyRuns::table(&place.folder));
+        let finding = match tally.left {
+            0 => Some(self.keep(S::NAME, study.conclude(&report.rows)?, &place, console)?),
+            _ => None,
+        };
+        Ok(answer(tally, finding, console))
+    }
+
+    /// Makes what is left of the runs, and says what became of them.
+    fn make<S: Study>(
+        &self,
+        study: &S,
+        known: KnownRuns,
+        place: &Place,
+        console: &Console,
+    ) -> Result<(StudyReport, Tally), Failure> {
+        let makers = known.rows.iter().map(|row| known.makers.get(&row.id));
+        builds::tell_of_others("row", makers, console);
+        runs::make(study.comparison(), &self.options, place, known, console)
+    }
+
+    /// Prints what was found and writes its files; returns it as JSON.
+    fn keep(
+        &self,
+        study: StudyName,
+        found: Conclusion,
+        place: &Place,
+        console: &Console,
+    ) -> Result<Value, Failure> {
+        console.result(&found.text);
+        let name = study.name();
+        if let Some(write) = found.table {
+            let path = place.file(&format!("{name}.csv"));
+            write(&path).map_err(Failure::failed)?;
+            console.file(&path);
+        }
+        let path = place.file(&format!("{name}.json"));
+        let bytes = serde_json::to_vec_pretty(&found.json).map_err(Failure::failed)?;
+        store::write_atomic(&path, &bytes).map_err(Failure::failed)?;
+        console.file(&path);
+        let mut written = Ok(());
+        for (name, figure) in found.figures {
+            if self.options.no_plot {
+                break;
+            }
+            let path = |end: &str| place.file(&format!("{name}.{end}"));
+            let figure = figure.map_err(Failure::failed);
+            let now = figure.and_then(|figure| figures::write(&figure, path, console));
+            // One that cannot be drawn does not stop the others.
+            written = written.and(now);
+        }
+        written.map(|()| found.json)
+    }
+}
+
+/// The runs that the table of a folder has already.
+fn known_runs<S: Study>(study: &S, place: &Place) -> Result<KnownRuns, Failure> {
+    let table = StudyRuns::table(&place.folder);
+    read_runs(study.comparison(), &table).map_err(Failure::refused)
+}
+
+fn answer(tally: Tally, finding: Option<Value>, console: &Console) -> Exit {
+    /// What `--json` prints.
+    #[derive(Serialize)]
+    struct Answer {
+        #[serde(flatten)]
+        tally: Tally,
+        finding: Option<Value>,
+        files: Vec<String>,
+    }
+    let exit = tally.exit();
+    console.answer(&Answer {
+        tally,
+        finding,
+        files: console.files(),
+    });
+    exit
 }

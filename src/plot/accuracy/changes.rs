@@ -100,8 +100,8 @@ fn cells(
     let columns = x.values.len();
     let mut cells = vec![None; columns * y.map_or(1, |axis| axis.values.len())];
     // The points of all settings have the places of those of the reference.
-    let axes = &comparison.settings[comparison.reference].sweep.axes;
-    for (values, point) in crate::sweep::grid(axes).zip(points) {
+    let sweep = &comparison.settings[comparison.reference].sweep;
+    for (values, point) in sweep.grid().zip(points) {
         let row = y.map_or(Some(0), |axis| axis.position(&values));
         let (Some(column), Some(row)) = (x.position(&values), row) else {
             continue;

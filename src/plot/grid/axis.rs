@@ -1,12 +1,13 @@
 //! An axis of a figure over a grid: its values as shown, its cells, its label.
 
 use crate::classify::LabelTable;
+use crate::grid::Axis;
 use crate::plot::numbers;
 use crate::plot::scale::AxisSpan;
 use crate::plot::spacing::AxisSpacing;
 use crate::plot::ticks::Ticks;
 use crate::scene::Scene;
-use crate::sweep::{Axis, PlotSettings, Sweep};
+use crate::sweep::{PlotSettings, Sweep};
 
 /// An axis of a figure.
 #[derive(Clone, Debug)]
@@ -28,6 +29,8 @@ pub(in crate::plot) struct GridAxis {
     pub(in crate::plot) index: usize,
     /// Whether its values stand at equal distances, whatever they are.
     pub(in crate::plot) is_even: bool,
+    /// Names of the variants that its values are; empty for numbers.
+    pub(in crate::plot) words: Vec<String>,
 }
 
 impl GridAxis {
@@ -75,6 +78,7 @@ impl GridAxis {
             unit,
             index,
             is_even: false,
+            words: axis.variants.iter().map(|it| it.name.clone()).collect(),
         };
         if let Some((scale, symbol)) = scale(&axis.key, axes, scene) {
             shown.factor = 1.0 / scale;
@@ -93,8 +97,11 @@ impl GridAxis {
         }
     }
 
-    /// `symbol = value unit`, the head of a panel.
+    /// `symbol = value unit`, the head of a panel; of a variant its name.
     pub(in crate::plot) fn at(&self, value: f64) -> String {
+        if let Some(word) = self.words.get(value as usize) {
+            return word.clone();
+        }
         let number = numbers::among(self.show(value), &self.shown());
         let text = format!("{} = {number} {}", self.symbol, self.unit);
         text.trim_end().to_owned()
@@ -179,7 +186,10 @@ impl GridAxis {
             low: edges[0],
             high: edges[edges.len() - 1],
             spacing: self.spacing(),
-            ticks: Ticks::Values(self.shown()),
+            ticks: match self.words.as_slice() {
+                [] => Ticks::Values(self.shown()),
+                _ => Ticks::Given(self.values.iter().map(|it| (*it, self.at(*it))).collect()),
+            },
             letters: None,
         }
     }
@@ -263,6 +273,7 @@ mod tests {
             unit: "rad/s".to_owned(),
             index: 0,
             is_even: false,
+            words: Vec::new(),
         }
     }
 

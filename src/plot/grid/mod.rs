@@ -5,7 +5,8 @@ mod axis;
 use super::page::columns;
 use super::{PlotError, Source};
 use crate::classify::{LabelTable, Point};
-use crate::sweep::{Axis, Sweep};
+use crate::grid::Axis;
+use crate::sweep::Sweep;
 pub(super) use axis::{GridAxis, strip};
 
 /// One of the small multiples; its cells hold points of a sweep, or of something else.
@@ -95,6 +96,14 @@ impl<P> PanelGrid<P> {
     pub(super) fn cells(&self) -> (usize, usize) {
         let vertical = self.y.as_ref().map_or(1, |axis| axis.values.len());
         (self.x.values.len(), vertical)
+    }
+
+    /// The place of the variant that a panel stands for, if it stands for one.
+    pub(super) fn variant(&self, panel: &GridPanel<P>) -> Option<f64> {
+        let axes = [(&self.columns, panel.column), (&self.rows, panel.row)];
+        axes.into_iter().find_map(|(axis, value)| {
+            value.filter(|_| axis.as_ref().is_some_and(|it| !it.words.is_empty()))
+        })
     }
 
     /// How many panels stand side by side.

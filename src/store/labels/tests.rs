@@ -30,6 +30,7 @@ fn example() -> LabelTable {
     LabelTable {
         family: &TANK,
         axes: vec!["radius".to_owned(), "omega".to_owned()],
+        variants: Vec::new(),
         rows: vec![
             row(1, Label::PINNED, Some(0.25)),
             row(2, Label::SMALL_SPOUT, None),
@@ -182,6 +183,7 @@ fn silo() -> LabelTable {
     LabelTable {
         family: &SILO,
         axes: vec!["opening".to_owned()],
+        variants: Vec::new(),
         rows: vec![
             row(1, Label::ARCHING, None),
             row(2, Label::EMPTIED, Some(29.7)),
@@ -258,6 +260,7 @@ fn any_table() -> impl Strategy<Value = LabelTable> {
         rows.prop_map(move |rows| LabelTable {
             family,
             axes: axes.clone(),
+            variants: Vec::new(),
             rows,
         })
     })

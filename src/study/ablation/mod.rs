@@ -7,15 +7,15 @@ mod table;
 pub use finding::{Finding, Verdict};
 pub use table::write_ablation;
 
-use crate::document::{LoadError, Problem};
+use crate::document::{Document, LoadError, Problem};
+use crate::grid::PointError;
 use crate::run;
 use crate::scene::{Change, Start};
 use crate::study::comparison::{
     AS_IT_IS, Base, Comparison, Cost, Measurement, RunRow, Setting, States,
 };
-use crate::sweep::{Job, PointError};
+use crate::sweep::Job;
 use serde::Serialize;
-use std::path::Path;
 
 /// Fewest seeds of an ablation by default.
 pub const FEWEST_SEEDS: usize = 5;
@@ -33,7 +33,23 @@ pub struct Ablation {
     pub comparison: Comparison,
     /// Simplifications that cannot be run or take far more work, and why.
     pub skipped: Vec<Skipped>,
+    /// How it is made.
+    pub options: AblationOptions,
     base: Base,
+    /// What was found of single simplifications, of an ablation with pairs.
+    of_singles: Option<Finding>,
+}
+
+/// How an ablation is made.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AblationOptions {
+    /// Number of seeds at each point; none for those of the sweep, or [`FEWEST_SEEDS`] if it has
+    /// fewer.
+    pub seeds: Option<usize>,
+    /// Share of the labels that may change without an effect that is called not needed.
+    pub tolerance: f64,
+    /// Words of the names of the simplifications that are tried; empty for all.
+    pub effects: Vec<String>,
 }
 
 /// A simplification that is not tried.
@@ -77,6 +93,14 @@ pub enum AblationError {
     /// The scene has nothing to take away.
     #[error("{0}: the scene has no effect that can be switched off")]
     NothingToAblate(String),
+    /// No simplification has a name with this word.
+    #[error("--ablate={word}: no simplification has that word in its name; there are {known}")]
+    UnknownEffect {
+        /// The word.
+        word: String,
+        /// Names of all simplifications.
+        known: String,
+    },
 }
 
 /// The setting, unless its time step is so small that it simplifies nothing.
@@ -95,21 +119,44 @@ fn worth_its_work(as_it_is: &Setting, setting: Setting) -> Result<Setting, Strin
     Ok(setting)
 }
 
+/// The changes whose names hold one of these words; all without words.
+fn chosen(
+    mut changes: Vec<(String, Change)>,
+    words: &[String],
+) -> Result<Vec<(String, Change)>, AblationError> {
+    let names = || changes.iter().map(|(name, _)| name.as_str());
+    let unknown = words
+        .iter()
+        .find(|word| !names().any(|it| it.contains(*word)));
+    if let Some(word) = unknown {
+        return Err(AblationError::UnknownEffect {
+            word: word.clone(),
+            known: names().collect::<Vec<_>>().join(", "),
+        });
+    }
+    changes.retain(|(name, _)| words.is_empty() || words.iter().any(|it| name.contains(it)));
+    Ok(changes)
+}
+
 impl Ablation {
-    /// The ablation of a scene or sweep with these seeds; by default with those of the sweep, or
-    /// [`FEWEST_SEEDS`] if it has fewer.
+    /// The ablation of a scene or sweep.
     ///
     /// # Errors
     /// All that is wrong with the file, or if the scene has no effect.
-    pub fn load(path: &Path, seeds: Option<usize>) -> Result<Self, AblationError> {
-        let mut base = Base::load(path)?;
+    pub(super) fn of_document(
+        document: &Document,
+        options: AblationOptions,
+    ) -> Result<Self, AblationError> {
+        let mut base = Base::of_document(document)?;
         if matches!(base.sweep.scene.start, Start::List { .. }) {
             let message = "every sphere has its place, so that seeds change nothing and tell no \
                            noise; give it a random start";
             return Err(AblationError::AsItIs(message.to_owned()));
         }
         let first = base.sweep.seeds.first().copied().unwrap_or(1);
-        let count = seeds.unwrap_or(base.sweep.seeds.len().max(FEWEST_SEEDS));
+        let count = options
+            .seeds
+            .unwrap_or(base.sweep.seeds.len().max(FEWEST_SEEDS));
         if count != base.sweep.seeds.len() {
             base.sweep.seeds = (0..count as u64)
                 .map(|next| first.saturating_add(next))
@@ -118,9 +165,11 @@ impl Ablation {
         let scene = &base.sweep.scene;
         let singles = run::model_of(scene).simplifications(scene).into_iter();
         let singles = singles.map(|it| (it.name.clone(), Change::of_simplification(&it)));
-        let mut ablation = Self::new(base, singles.collect())?;
+        let singles = chosen(singles.collect(), &options.effects)?;
+        let mut ablation = Self::new(base, singles, options)?;
         if ablation.comparison.settings.len() < 2 && ablation.skipped.is_empty() {
-            return Err(AblationError::NothingToAblate(path.display().to_string()));
+            let path = document.path().display().to_string();
+            return Err(AblationError::NothingToAblate(path));
         }
         ablation
             .skipped
@@ -128,7 +177,11 @@ impl Ablation {
         Ok(ablation)
     }
 
-    fn new(base: Base, changes: Vec<(String, Change)>) -> Result<Self, AblationError> {
+    fn new(
+        base: Base,
+        changes: Vec<(String, Change)>,
+        options: AblationOptions,
+    ) -> Result<Self, AblationError> {
         let as_it_is = Setting::new(&base, AS_IT_IS.to_owned(), Change::default());
         let as_it_is = as_it_is.map_err(|problems| {
             let problems: Vec<String> = problems.iter().map(Problem::to_string).collect();
@@ -149,20 +202,20 @@ impl Ablation {
         Ok(Self {
             comparison: Comparison::new(settings, 0, 0, measurement)?,
             skipped,
+            options,
             base,
+            of_singles: None,
         })
     }
 
-    /// The same with each pair of those that matter: both at once.
+    /// The same with each pair of those that matter: both at once. The sentence of its finding
+    /// stays that about single effects.
     ///
     /// # Errors
     /// If a pair cannot be run at a point.
-    pub fn with_pairs(
-        &self,
-        rows: &[Option<RunRow>],
-        finding: &Finding,
-    ) -> Result<Self, AblationError> {
-        let ablated = self.evaluate(rows, finding.tolerance);
+    pub fn with_pairs(&self, rows: &[Option<RunRow>]) -> Result<Self, AblationError> {
+        let ablated = self.evaluate(rows);
+        let of_singles = Some(self.finding(&ablated));
         let mut matter: Vec<&Ablated> = ablated
             .iter()
             .filter(|it| it.verdict == Verdict::Needed)
@@ -194,16 +247,23 @@ impl Ablation {
         let mut both = Self::new(
             self.base.clone(),
             singles.into_iter().chain(pairs).collect(),
+            self.options.clone(),
         )?;
+        both.of_singles = of_singles;
         both.skipped.extend(self.skipped.clone());
         both.skipped.sort_by(|one, other| one.name.cmp(&other.name));
         both.skipped.dedup();
         Ok(both)
     }
 
-    /// What each simplification does, from the rows of all jobs. `tolerance` is the share of labels
-    /// that may change.
-    pub fn evaluate(&self, rows: &[Option<RunRow>], tolerance: f64) -> Vec<Ablated> {
+    /// What follows from what simplifications do.
+    pub fn finding(&self, ablated: &[Ablated]) -> Finding {
+        let known = self.of_singles.clone();
+        known.unwrap_or_else(|| Finding::of(ablated, self.options.tolerance))
+    }
+
+    /// What each simplification does, from the rows of all jobs.
+    pub fn evaluate(&self, rows: &[Option<RunRow>]) -> Vec<Ablated> {
         let places = 1..self.comparison.settings.len();
         let of = |place: usize| {
             let sample = self.comparison.sample(place, rows);
@@ -214,7 +274,7 @@ impl Ablation {
                 runs: sample.runs().count(),
                 missing,
                 cost: sample.cost(),
-                verdict: Verdict::of(&states, missing, tolerance),
+                verdict: Verdict::of(&states, missing, self.options.tolerance),
                 states,
             }
         };

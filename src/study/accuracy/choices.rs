@@ -1,7 +1,8 @@
 //! From ladders and variants to settings.
 
-use super::file::{Combine, Ladder, Variant};
+use super::file::{Combine, Ladder};
 use crate::document::{Problem, number};
+use crate::grid::{VariantEntry, check_variants};
 use crate::scene::{Change, leaf};
 use crate::study::comparison::AS_IT_IS;
 use serde_json::Value;
@@ -36,7 +37,7 @@ pub(super) struct Choice {
 /// Ladders without values, with values twice, or too many of them.
 pub(super) fn choices(
     ladders: &[Ladder],
-    variants: &[Variant],
+    variants: &[VariantEntry],
     combine: Combine,
 ) -> Result<Vec<Choice>, Vec<Problem>> {
     let mut problems = Vec::new();
@@ -136,7 +137,7 @@ fn method_of_rung(choice: &Choice) -> String {
         .map_or_else(String::new, |(key, _)| leaf(key).to_owned())
 }
 
-fn check(ladders: &[Ladder], variants: &[Variant], problems: &mut Vec<Problem>) {
+fn check(ladders: &[Ladder], variants: &[VariantEntry], problems: &mut Vec<Problem>) {
     if ladders.is_empty() && variants.is_empty() {
         let help = "add [[ladder]] with `key` and `values`, or [[variant]] with `name` and `set`";
         problems.push(Problem::new("", "the study varies nothing").help(help));
@@ -172,26 +173,7 @@ fn check(ladders: &[Ladder], variants: &[Variant], problems: &mut Vec<Problem>) 
             }
         }
     }
-    for (index, variant) in variants.iter().enumerate() {
-        if variants[..index]
-            .iter()
-            .any(|earlier| earlier.name == variant.name)
-        {
-            let message = format!("the name \"{}\" is there twice", variant.name);
-            let problem = Problem::new(format!("variant[{index}].name"), message);
-            problems.push(problem.help("choose another one"));
-        }
-        let is_plain = !variant.name.trim().is_empty() && !variant.name.contains(char::is_control);
-        if !is_plain || TAKEN.contains(&variant.name.as_str()) {
-            let message = format!("{:?} cannot be the name of a variant", variant.name);
-            let problem = Problem::new(format!("variant[{index}].name"), message);
-            problems.push(problem.help("choose one in plain letters that no other setting has"));
-        }
-        if variant.change().is_empty() {
-            let problem = Problem::new(format!("variant[{index}]"), "the variant changes nothing");
-            problems.push(problem.help("add `set` or `remove`"));
-        }
-    }
+    check_variants(variants, &TAKEN, problems);
 }
 
 #[cfg(test)]

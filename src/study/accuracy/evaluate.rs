@@ -164,7 +164,7 @@ impl AccuracyStudy {
         let outcomes = outcomes.collect();
         let (times, majorities) = match &comparison.measurement {
             Measurement::Motion(times) => (times.clone(), Vec::new()),
-            Measurement::States(_) => {
+            _ => {
                 let reference = comparison.sample(comparison.reference, rows);
                 (Vec::new(), majorities(&reference))
             }
@@ -249,12 +249,12 @@ fn of_setting(comparison: &Comparison, place: usize, rows: &[Option<RunRow>]) ->
     let setting = &comparison.settings[place];
     let sample = comparison.sample(place, rows);
     let errors = match &comparison.measurement {
-        Measurement::States(_) => Errors::States(States::of(comparison, place, rows)),
         Measurement::Motion(_) => {
             let reference = comparison.sample(comparison.reference, rows);
             let quantities = comparison.quantities();
             Errors::Motion(MotionError::of(&sample, &reference, &quantities))
         }
+        _ => Errors::States(States::of(comparison, place, rows)),
     };
     let is_unstable = |run: &&RunRow| run.label == Label::UNSTABLE;
     Outcome {

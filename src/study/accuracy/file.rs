@@ -1,8 +1,8 @@
 //! What the file of a study of accuracy may say.
 
 use crate::document::{Schema, unit};
+use crate::grid::{AxisEntry, SeedsEntry, VariantEntry, or_path};
 use crate::scene::{Change, Scene};
-use crate::sweep::{AxisEntry, SeedsEntry, or_path};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::Value;
@@ -43,7 +43,7 @@ pub(crate) struct AccuracyFile {
     pub(super) ladder: Vec<Ladder>,
     /// Variants: any keys at once, under a name.
     #[serde(default)]
-    pub(super) variant: Vec<Variant>,
+    pub(super) variant: Vec<VariantEntry>,
     /// Whether one ladder is climbed at a time, or all their choices are combined.
     #[serde(default)]
     pub(super) combine: Combine,
@@ -53,6 +53,10 @@ pub(crate) struct AccuracyFile {
     /// How large an error is allowed.
     #[serde(default)]
     pub(super) tolerance: Tolerance,
+    /// Names of axes, or last parts of the keys of ladders: against each a figure shows the
+    /// processor time of a step.
+    #[serde(default)]
+    pub(super) step_time: Vec<String>,
 }
 
 /// The name of this study.
@@ -72,24 +76,6 @@ pub(super) struct Ladder {
     pub(super) values: Vec<Value>,
 }
 
-/// A named setting of several keys.
-#[derive(Deserialize, JsonSchema)]
-pub(super) struct Variant {
-    /// Name, as in tables and figures.
-    pub(super) name: String,
-    /// Keys of the scene and their values, such as `"time.dt" = 1e-4`, or whole tables, such as
-    /// `friction = { law = "coulomb", ... }`.
-    #[serde(default)]
-    set: BTreeMap<String, Value>,
-    /// Tables or keys of the scene that are left out, such as `"spin_damping"`.
-    #[serde(default)]
-    remove: Vec<String>,
-    /// Factors on the values of axes, by the names of these: what another size of the scene calls
-    /// for.
-    #[serde(default)]
-    scale: BTreeMap<String, f64>,
-}
-
 /// Keys of the scene that are set or left out.
 #[derive(Deserialize, JsonSchema)]
 pub(super) struct Changes {
@@ -98,7 +84,7 @@ pub(super) struct Changes {
     set: BTreeMap<String, Value>,
     /// As of a variant.
     #[serde(default)]
-    remove: Vec<String>,
+    without: Vec<String>,
 }
 
 /// How ladders go together.
@@ -139,28 +125,16 @@ impl Default for Tolerance {
     }
 }
 
-impl Variant {
-    pub(super) fn change(&self) -> Change {
-        Change {
-            set: pairs(&self.set),
-            remove: self.remove.clone(),
-            scale: pairs(&self.scale),
-        }
-    }
-}
-
 impl Changes {
     pub(super) fn change(&self) -> Change {
         Change {
-            set: pairs(&self.set),
-            remove: self.remove.clone(),
+            set: self
+                .set
+                .iter()
+                .map(|(key, it)| (key.clone(), it.clone()))
+                .collect(),
+            remove: self.without.clone(),
             scale: Vec::new(),
         }
     }
-}
-
-fn pairs<T: Clone>(map: &BTreeMap<String, T>) -> Vec<(String, T)> {
-    map.iter()
-        .map(|(key, value)| (key.clone(), value.clone()))
-        .collect()
 }

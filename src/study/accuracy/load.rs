@@ -3,15 +3,16 @@
 use super::choices::{Choice, REFERENCE, choices};
 use super::file::{ACCURACY, AccuracyFile, Changes};
 use super::{AccuracyStudy, Subject, cases};
-use crate::document::{Document, LoadError, Problem, number};
+use crate::document::{Document, LoadError, Problem, number, one_of};
+use crate::grid::{
+    check_axes, check_jobs, check_number_of_axes, check_steps, expand_axes, expand_seeds,
+    nothing_to_leave_out,
+};
 use crate::run;
-use crate::scene::{Change, FileKind, Scene, Start, StartSphere, settings};
+use crate::scene::{Change, FileKind, Scene, Start, StartSphere, leaf, settings};
 use crate::simulation::{BuildError, Snapshot};
 use crate::study::StudyName;
 use crate::study::comparison::{AS_IT_IS, Base, Comparison, Measurement, Setting};
-use crate::sweep::{
-    check_axes, check_jobs, check_number_of_axes, check_steps, expand_axes, expand_seeds,
-};
 use serde::Deserialize;
 use std::path::Path;
 
@@ -58,11 +59,39 @@ pub(crate) fn of_document(document: &Document) -> Result<AccuracyStudy, LoadErro
             return Err(document.refuse(&[Problem::new("", message).help(help)]));
         }
     };
+    check_step_time(&file, &subject, document)?;
     Ok(AccuracyStudy {
         title: file.title,
         tolerance: file.tolerance,
         subject,
+        step_time: file.step_time,
     })
+}
+
+/// Times of steps are drawn against what the study varies in numbers.
+fn check_step_time(
+    file: &AccuracyFile,
+    subject: &Subject,
+    document: &Document,
+) -> Result<(), LoadError> {
+    let mut known = Vec::new();
+    if let Subject::Scene(comparison) = subject {
+        known.extend(comparison.axes().iter().map(|axis| axis.name.as_str()));
+        let rungs = comparison.settings.iter().filter_map(|it| it.rung.as_ref());
+        known.extend(rungs.map(|(key, _)| leaf(key)));
+        known.dedup();
+    }
+    let names = file.step_time.iter().enumerate();
+    let unknown = names.filter(|(_, name)| !known.contains(&name.as_str()));
+    let problems = unknown.map(|(index, name)| {
+        let message = format!("the study has no axis or ladder of numbers \"{name}\"");
+        let help = match known.is_empty() {
+            true => "remove it: the study has neither".to_owned(),
+            false => format!("there is {}", one_of(known.iter().copied())),
+        };
+        Problem::new(format!("step_time[{index}]"), message).help(help)
+    });
+    document.accept(&problems.collect::<Vec<_>>())
 }
 
 /// A case has its own known numbers, and no seeds.
@@ -132,8 +161,11 @@ fn comparison(
             Measurement::Motion(times.clone())
         }
     };
-    Comparison::new(settings, reference, 0, measurement)
-        .map_err(|error| document.refuse(&[Problem::new("", error.to_string())]))
+    let comparison = match file.step_time.as_slice() {
+        [] => Comparison::new(settings, reference, 0, measurement),
+        _ => Comparison::timed(settings, reference, 0, measurement),
+    };
+    comparison.map_err(|error| document.refuse(&[Problem::new("", error.to_string())]))
 }
 
 /// What the scene must have for the errors that are asked for.
@@ -214,8 +246,7 @@ fn settings(
 /// Notes what a change leaves out although it is not there: a slip of the pen.
 fn note_absent(base: &Base, path: &str, change: &Change, problems: &mut Vec<Problem>) {
     for absent in base.not_there(change) {
-        let message = format!("the scene has no `{absent}` to leave out");
-        problems.push(Problem::new(path, message).help("check its spelling, or remove it here"));
+        problems.push(nothing_to_leave_out(path, absent));
     }
 }
 

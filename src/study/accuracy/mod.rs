@@ -39,6 +39,8 @@ pub struct AccuracyStudy {
     pub tolerance: Tolerance,
     /// What is run.
     pub subject: Subject,
+    /// Axes, or last parts of the keys of ladders, against which the time of a step is drawn.
+    pub step_time: Vec<String>,
 }
 
 /// What a study runs.

@@ -2,20 +2,19 @@
 
 use crate::classify::Family;
 use crate::document::{Document, LoadError, Problem, number};
+use crate::grid::base_scene;
+use crate::grid::{PointScenes, SceneTree, check_change};
 use crate::run::{self, Reading};
 use crate::scene::{Change, FileKind, Friction, Scene, is_within};
-use crate::sweep::{self, PointScenes, Sweep};
+use crate::sweep::{self, Sweep};
 use serde_json::{Value, json};
-use std::path::{Path, PathBuf};
 
 /// A scene or a sweep, and its scene as the file has it.
 #[derive(Clone, Debug)]
 pub(crate) struct Base {
     /// The sweep; of a scene that of its own seed alone.
     pub(crate) sweep: Sweep,
-    tree: Value,
-    /// What files that the scene names are relative to.
-    folder: PathBuf,
+    source: SceneTree,
 }
 
 /// The sweep of a setting.
@@ -26,25 +25,17 @@ pub(super) struct Changed {
 }
 
 impl Base {
-    /// Reads a scene or a sweep.
-    ///
-    /// # Errors
-    /// All that is wrong with the file, each with line, column and the fix.
-    pub(crate) fn load(path: &Path) -> Result<Self, LoadError> {
-        Self::of_document(&Document::read(path)?)
-    }
-
     /// What the key `scene` of a study says: the path of a scene or sweep, or a scene itself.
     pub(crate) fn of_entry(entry: &Value, document: &Document) -> Result<Self, LoadError> {
         let Some(path) = entry.as_str() else {
-            let sweep = sweep::base_scene(entry, document, Reading::RUN)?;
+            let sweep = base_scene(entry, document, Reading::RUN)?;
             return Ok(Self {
                 sweep: Sweep::of_scene(sweep),
-                tree: entry.clone(),
-                folder: document.folder().to_owned(),
+                source: SceneTree::within(entry, document.folder()),
             });
         };
-        match Self::load(&document.folder().join(path)) {
+        let file = Document::read(&document.folder().join(path));
+        match file.and_then(|file| Self::of_document(&file)) {
             Err(error @ LoadError::Read { .. }) => {
                 let help = "the path is relative to the folder of this file";
                 Err(document.refuse(&[Problem::new("scene", error.to_string()).help(help)]))
@@ -53,33 +44,30 @@ impl Base {
         }
     }
 
-    fn of_document(document: &Document) -> Result<Self, LoadError> {
+    /// The base that a file of a scene or a sweep describes.
+    ///
+    /// # Errors
+    /// All that is wrong with the file, each with line, column and the fix.
+    pub(crate) fn of_document(document: &Document) -> Result<Self, LoadError> {
         if FileKind::of(document).0 != FileKind::Sweep {
             // Also what is neither, which is refused with all that is wrong with it.
             return Ok(Self {
                 sweep: Sweep::of_scene(run::base_of_document(document, Reading::RUN)?),
-                tree: document.tree().clone(),
-                folder: document.folder().to_owned(),
+                source: SceneTree::of_document(document),
             });
+        }
+        if document.tree().get("variant").is_some() {
+            let message = "the sweep has variants, and a study compares its own";
+            let help = "name a sweep without them, or leave the key out";
+            return Err(document.refuse(&[Problem::new("variant", message).help(help)]));
         }
         // The whole grid is compared.
         let sweep = Sweep {
             refine: None,
             ..sweep::of_document(document)?
         };
-        let entry = &document.tree()["scene"];
-        let (tree, folder) = match entry.as_str() {
-            Some(path) => {
-                let scene = Document::read(&document.folder().join(path))?;
-                (scene.tree().clone(), scene.folder().to_owned())
-            }
-            None => (entry.clone(), document.folder().to_owned()),
-        };
-        Ok(Self {
-            sweep,
-            tree,
-            folder,
-        })
+        let source = SceneTree::of_entry(document)?;
+        Ok(Self { sweep, source })
     }
 
     /// The base with a change, from which settings then start.
@@ -87,11 +75,10 @@ impl Base {
     /// # Errors
     /// What is wrong with it, by paths of the scene.
     pub(crate) fn changed(&self, change: &Change) -> Result<Self, Vec<Problem>> {
-        self.check_axes(change)?;
-        let mut tree = self.tree.clone();
-        change.apply(&mut tree).map_err(not_in_a_table)?;
+        check_change(change, &self.sweep.axes)?;
+        let source = self.source.changed(change)?;
         let mut sweep = self.sweep.clone();
-        sweep.scene = run::base_of_tree(&tree, &self.folder, Reading::RUN)?;
+        sweep.scene = source.scene()?;
         if sweep.axes.iter().any(|axis| axis.key == "time.dt") {
             sweep.scene.time.safety_factor = None;
         }
@@ -100,23 +87,12 @@ impl Base {
                 axis.values.iter_mut().for_each(|value| *value *= factor);
             }
         }
-        Ok(Self {
-            sweep,
-            tree,
-            folder: self.folder.clone(),
-        })
+        Ok(Self { sweep, source })
     }
 
     /// Tables and keys that a change leaves out although they are not there.
     pub(crate) fn not_there<'a>(&self, change: &'a Change) -> Vec<&'a str> {
-        let pointer = |path: &str| format!("/{}", path.replace('.', "/"));
-        let absent = |path: &&String| self.tree.pointer(&pointer(path)).is_none();
-        change
-            .remove
-            .iter()
-            .filter(absent)
-            .map(String::as_str)
-            .collect()
+        self.source.not_there(change)
     }
 
     /// The sweep with a change. Problems have paths of the scene.
@@ -138,35 +114,6 @@ impl Base {
         Ok(Changed { sweep, note })
     }
 
-    /// No setting may change what an axis varies.
-    fn check_axes(&self, change: &Change) -> Result<(), Vec<Problem>> {
-        let axes = &self.sweep.axes;
-        let taken = change.paths().into_iter().chain(change.remove.clone());
-        for path in taken {
-            if let Some(axis) = axes.iter().find(|axis| is_within(&axis.key, &path)) {
-                let message = format!(
-                    "`{path}` is changed, but the axis `{}` varies it",
-                    axis.name
-                );
-                let help = "leave the axis out, or do not change the key";
-                return Err(vec![Problem::new(path, message).help(help)]);
-            }
-        }
-        for (name, factor) in &change.scale {
-            if !axes.iter().any(|axis| axis.name == *name) {
-                let names: Vec<&str> = axes.iter().map(|axis| axis.name.as_str()).collect();
-                let message = format!("there is no axis \"{name}\" to scale");
-                let help = format!("the axes are {}", names.join(", "));
-                return Err(vec![Problem::new("", message).help(help)]);
-            }
-            if !(*factor > 0.0 && factor.is_finite()) {
-                let message = format!("the axis \"{name}\" cannot be scaled by {factor}");
-                return Err(vec![Problem::new("", message).help("use a factor above 0")]);
-            }
-        }
-        Ok(())
-    }
-
     /// What holds mu/dt of "spin" friction where a change gives another time step: the law is an
     /// impulse mu per step, so that the step alone would change the friction.
     fn hold_impulse(&self, change: &Change) -> Option<Change> {
@@ -178,7 +125,7 @@ impl Base {
         let is_removed = change.remove.iter().any(|it| is_within("friction", it));
         let is_axis = self.varies("friction.coefficient");
         let dt = change.value("time.dt")?.as_f64()?;
-        let before = self.tree["time"]["dt"].as_f64()?;
+        let before = self.source.number("time", "dt")?;
         let held = coefficient * dt / before;
         (!is_removed && !is_axis && held != coefficient)
             .then(|| Change::of_key("friction.coefficient", json!(held)))
@@ -230,7 +177,7 @@ impl Base {
         }
         let mut scenes =
             PointScenes::new(&sweep.scene, &sweep.axes).map_err(|error| error.problems)?;
-        for values in sweep::grid(&sweep.axes) {
+        for values in sweep.grid() {
             scenes.checked(&values).map_err(|error| {
                 let at = error.point;
                 let mut problems = error.problems;
@@ -242,11 +189,6 @@ impl Base {
         }
         Ok(())
     }
-}
-
-fn not_in_a_table(path: String) -> Vec<Problem> {
-    let message = format!("`{path}` is not in a table");
-    vec![Problem::new(path, message)]
 }
 
 /// The coefficient of "spin" friction, if that is the law.

@@ -1,6 +1,9 @@
 //! What a comparison measures of a run.
 
-use crate::classify::{ClassifyError, Family, Label, Measure, Sieves, classify};
+use crate::classify::{
+    ClassifyError, Family, Label, Measure, NUMERICS, Sieves, classify, judge_numerics,
+    judge_numerics_again,
+};
 use crate::observe::Snapshot;
 use crate::record::{Outcome, RunRecord};
 use crate::scene::Scene;
@@ -18,6 +21,8 @@ pub enum Measurement {
     States(Box<Sieves>),
     /// Energies and moments of the motion at these times (s).
     Motion(Vec<f64>),
+    /// What became of it numerically; with the largest gain of energy that is stable.
+    Numerics(f64),
 }
 
 /// A measured quantity.
@@ -72,6 +77,15 @@ impl Measurement {
                 };
                 (0..times.len()).flat_map(at).collect()
             }
+            Self::Numerics(_) => {
+                let measures = NUMERICS.measures();
+                let quantity = |it: &'static Measure| Quantity {
+                    name: it.name.to_owned(),
+                    unit: it.unit,
+                    time: None,
+                };
+                measures.map(quantity).collect()
+            }
         }
     }
 
@@ -108,12 +122,31 @@ impl Measurement {
                     values: values.collect(),
                 })
             }
+            Self::Numerics(threshold) => {
+                let verdict = judge_numerics(record, *threshold);
+                Ok(Measured {
+                    label: verdict.label,
+                    values: verdict.values,
+                })
+            }
+        }
+    }
+
+    /// The label of a run that was measured so before, perhaps with another threshold.
+    pub(super) fn label_again(&self, label: Label, values: &[Option<f64>]) -> Label {
+        match self {
+            Self::Numerics(threshold) => judge_numerics_again(label, values, *threshold),
+            Self::States(_) | Self::Motion(_) => label,
         }
     }
 
     /// Short name of the measurement: rows of another one cannot be used again.
     pub fn digest(&self) -> String {
-        let text = serde_json::to_string(self).expect("thresholds and times are plain numbers");
+        let text = match self {
+            // Labels follow another threshold without a new run.
+            Self::Numerics(_) => "numerics".to_owned(),
+            of => serde_json::to_string(of).expect("thresholds and times are plain numbers"),
+        };
         blake3::hash(text.as_bytes()).to_hex()[..8].to_owned()
     }
 }

@@ -19,15 +19,16 @@ pub use bootstrap::Interval;
 pub use disagreement::{Disagreement, PointDisagreement};
 pub use majority::{Majority, majorities};
 pub use measurement::{Measured, Measurement, Quantity};
-pub use runs::{Comparing, ComparingError, Report};
+pub use runs::{StudyReport, StudyRuns};
 pub use sample::{Cost, Sample};
 pub use shift::Shift;
 pub use states::{ShiftOf, States};
-pub use table::{KnownRuns, RunRow, read_runs, write_runs};
+pub use table::{KnownRuns, RunRow, read_runs};
 
 use crate::document::Problem;
+use crate::grid::{Axis, PointError};
 use crate::scene::Change;
-use crate::sweep::{Axis, Job, PointError, Sweep};
+use crate::sweep::{Job, Sweep};
 use std::collections::HashMap;
 
 /// Name of the setting that changes nothing.
@@ -97,12 +98,63 @@ impl Comparison {
         as_it_is: usize,
         measurement: Measurement,
     ) -> Result<Self, PointError> {
-        let mut settings = settings;
+        let jobs = settings.iter().map(|setting| setting.sweep.jobs());
+        let jobs = jobs.collect::<Result<_, _>>()?;
+        Ok(Self::of_jobs(
+            settings,
+            jobs,
+            reference,
+            as_it_is,
+            measurement,
+        ))
+    }
+
+    /// The same with runs that no two settings share, so that each is timed by itself: what changes
+    /// no motion, such as the search for neighbours, changes no identity of a run.
+    ///
+    /// # Errors
+    /// Those of [`new`](Self::new).
+    pub(super) fn timed(
+        settings: Vec<Setting>,
+        reference: usize,
+        as_it_is: usize,
+        measurement: Measurement,
+    ) -> Result<Self, PointError> {
+        let own = |setting: &Setting| {
+            let jobs = setting.sweep.jobs()?.into_iter();
+            let jobs = jobs.map(|job| {
+                let text = format!("{} timed with {}", job.id, setting.name);
+                let id = blake3::hash(text.as_bytes()).to_hex()[..job.id.len()].to_owned();
+                Job { id, ..job }
+            });
+            Ok(jobs.collect())
+        };
+        let jobs = settings
+            .iter()
+            .map(own)
+            .collect::<Result<_, PointError>>()?;
+        Ok(Self::of_jobs(
+            settings,
+            jobs,
+            reference,
+            as_it_is,
+            measurement,
+        ))
+    }
+
+    /// The same with jobs that are there, of each setting its own, point by point.
+    pub(super) fn of_jobs(
+        mut settings: Vec<Setting>,
+        jobs_of_settings: Vec<Vec<Job>>,
+        reference: usize,
+        as_it_is: usize,
+        measurement: Measurement,
+    ) -> Self {
         let mut places: HashMap<String, usize> = HashMap::new();
         let (mut jobs, mut runs) = (Vec::new(), Vec::new());
-        for setting in &settings {
+        for of_setting in jobs_of_settings {
             let mut own = Vec::new();
-            for job in setting.sweep.jobs()? {
+            for job in of_setting {
                 let place = *places.entry(job.id.clone()).or_insert(jobs.len());
                 if place == jobs.len() {
                     jobs.push(job);
@@ -117,14 +169,33 @@ impl Comparison {
                 setting.note = Some("its runs are those of the scene as it is".to_owned());
             }
         }
-        Ok(Self {
+        Self {
             settings,
             reference,
             as_it_is,
             measurement,
             jobs,
             runs,
-        })
+        }
+    }
+
+    /// The runs of a setting, by its place, point by point and seed by seed.
+    pub fn jobs_of(&self, setting: usize) -> impl Iterator<Item = &Job> + Clone {
+        self.runs[setting].iter().map(|&place| &self.jobs[place])
+    }
+
+    /// Names of the settings that runs are made for, by the identities of these; of settings that
+    /// share a run, the first.
+    pub fn settings_of_runs(&self) -> HashMap<&str, &str> {
+        let mut names = HashMap::new();
+        for (place, setting) in self.settings.iter().enumerate() {
+            for job in self.jobs_of(place) {
+                names
+                    .entry(job.id.as_str())
+                    .or_insert(setting.name.as_str());
+            }
+        }
+        names
     }
 
     /// The axes, which all settings have.

@@ -1,16 +1,21 @@
-//! `runs.csv`: what was measured of the runs of a comparison, one row per run.
+//! `runs.csv`: what was measured of the runs of a study, one row per run.
 //!
 //! Columns: `setting`, the axes by their names, `seed`, `label`, the measured quantities by their
 //! names (empty where one is undefined), `sphere_steps`, `force_evaluations`, `cpu_seconds`,
 //! `measured` (which thresholds or times the row was measured with), `id`. A run that several
 //! settings share has a row for each.
+//!
+//! `runs.makers.csv` beside it: which build made each row, in the columns `id`, `version` and
+//! `commit`. It is a file of its own because the same study gives the same table, whatever build
+//! makes it.
 
 use super::{Comparison, Quantity};
-use crate::classify::{FAMILIES, Label};
+use crate::classify::{FAMILIES, Label, NUMERICS};
+use crate::grid::Axis;
+use crate::record::Program;
 use crate::store::{StoreError, write_atomic};
-use crate::sweep::Axis;
-use std::collections::HashSet;
-use std::path::Path;
+use std::collections::{BTreeMap, HashSet};
+use std::path::{Path, PathBuf};
 
 /// What was measured of one run, and what it cost.
 #[derive(Clone, Debug, PartialEq)]
@@ -55,7 +60,7 @@ fn columns(axes: &[Axis], quantities: &[Quantity]) -> Vec<String> {
 ///
 /// # Errors
 /// If the file cannot be written.
-pub fn write_runs(
+pub(super) fn write_runs(
     comparison: &Comparison,
     rows: &[Option<RunRow>],
     others: &[csv::StringRecord],
@@ -97,6 +102,8 @@ pub struct KnownRuns {
     pub rows: Vec<RunRow>,
     /// Lines of other settings or seeds.
     pub others: Vec<csv::StringRecord>,
+    /// Which builds made them all, by identities, as far as that was noted.
+    pub makers: BTreeMap<String, Program>,
 }
 
 /// Reads the rows of a table that can be used again: of the same axes, quantities and measurement.
@@ -124,26 +131,34 @@ pub fn read_runs(comparison: &Comparison, path: &Path) -> Result<KnownRuns, Stor
     }
     let measured = comparison.measurement.digest();
     let own: HashSet<&str> = comparison.jobs.iter().map(|job| job.id.as_str()).collect();
-    let (mut runs, mut known) = (KnownRuns::default(), HashSet::new());
+    let mut runs = KnownRuns {
+        makers: read_makers(path)?,
+        ..KnownRuns::default()
+    };
+    let mut known = HashSet::new();
     for row in table.records() {
         let record = row.map_err(fail)?;
         let line = record.position().map_or(1, csv::Position::line);
-        let (row, how) = parse(&record, axes.len(), quantities.len()).ok_or_else(|| {
-            StoreError::text(
-                path,
-                line,
-                "this is no row of a comparison; delete the file",
-            )
+        let parsed = parse(&record, axes.len(), quantities.len());
+        let (mut row, how) = parsed.ok_or_else(|| {
+            StoreError::text(path, line, "this is no row of a study; delete the file")
         })?;
         if how != measured {
             continue;
         }
+        row.label = comparison.measurement.label_again(row.label, &row.values);
         if !own.contains(row.id.as_str()) {
             runs.others.push(record);
         } else if known.insert(row.id.clone()) {
             runs.rows.push(row);
         }
     }
+    let others = runs
+        .others
+        .iter()
+        .filter_map(|line| line.iter().next_back());
+    known.extend(others.map(str::to_owned));
+    runs.makers.retain(|id, _| known.contains(id));
     Ok(runs)
 }
 
@@ -151,8 +166,8 @@ pub fn read_runs(comparison: &Comparison, path: &Path) -> Result<KnownRuns, Stor
 fn parse(line: &csv::StringRecord, axes: usize, quantities: usize) -> Option<(RunRow, String)> {
     let cells: Vec<&str> = line.iter().skip(1 + axes).collect();
     let (_seed, label) = (cells.first()?.parse::<u64>().ok()?, cells.get(1)?);
-    let mut labels = FAMILIES.into_iter();
-    let label = labels.find_map(|family| family.label(label))?;
+    let mut families = FAMILIES.into_iter().chain([&NUMERICS]);
+    let label = families.find_map(|family| family.label(label))?;
     let values = cells
         .get(2..2 + quantities)?
         .iter()
@@ -173,4 +188,46 @@ fn parse(line: &csv::StringRecord, axes: usize, quantities: usize) -> Option<(Ru
         cpu_seconds: cpu_seconds.parse().ok()?,
     };
     Some((row, (*how).to_owned()))
+}
+
+/// The builds that made the rows of a table are noted in this file.
+fn makers_of(table: &Path) -> PathBuf {
+    table.with_extension("makers.csv")
+}
+
+/// Notes which builds made the rows of a table, by the identities of their runs.
+///
+/// # Errors
+/// If the file cannot be written.
+pub(super) fn write_makers(
+    makers: &BTreeMap<String, Program>,
+    table: &Path,
+) -> Result<(), StoreError> {
+    let path = makers_of(table);
+    let rows = makers.iter();
+    let rows = rows.map(|(id, by)| [id.as_str(), &by.version, &by.commit]);
+    let mut bytes = csv::Writer::from_writer(Vec::new());
+    let fail = |error: csv::Error| StoreError::content(&path, error);
+    for row in std::iter::once(["id", "version", "commit"]).chain(rows) {
+        bytes.write_record(row).map_err(fail)?;
+    }
+    let bytes = bytes
+        .into_inner()
+        .map_err(|error| StoreError::content(&path, error))?;
+    write_atomic(&path, &bytes)
+}
+
+/// Reads which builds made the rows of a table, as far as that was noted.
+fn read_makers(table: &Path) -> Result<BTreeMap<String, Program>, StoreError> {
+    let path = makers_of(table);
+    if !path.exists() {
+        return Ok(BTreeMap::new());
+    }
+    let fail = |error: csv::Error| StoreError::reading(&path, error.into());
+    let mut rows = csv::Reader::from_path(&path).map_err(fail)?;
+    let maker = |row: Result<(String, String, String), csv::Error>| {
+        let (id, version, commit) = row.map_err(fail)?;
+        Ok((id, Program { version, commit }))
+    };
+    rows.deserialize().map(maker).collect()
 }

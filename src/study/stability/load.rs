@@ -1,14 +1,17 @@
 //! From a study file to a study.
 
-use super::{Study, fit_frames, output};
+use super::{Frames, StabilityStudy, fit_frames, output};
+use crate::classify::{ENERGY_GAIN, NUMERICS};
 use crate::document::{Document, LoadError, Problem, Schema, unit};
-use crate::run::Reading;
-use crate::scene::{FileKind, Integrator, Scene, settings};
-use crate::study::StudyName;
-use crate::sweep::{
+use crate::grid::{
     Axis, AxisEntry, base_scene, check_axes, check_jobs, check_points, check_steps, expand_axes,
-    grid, or_path, points,
+    or_path,
 };
+use crate::run::Reading;
+use crate::scene::{Change, FileKind, Integrator, Scene, settings};
+use crate::study::StudyName;
+use crate::study::comparison::{Comparison, Measurement, Setting};
+use crate::sweep::{Job, Sweep};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::Value;
@@ -18,24 +21,12 @@ use std::sync::LazyLock;
 /// Most frames of a run: their observables are held in memory.
 const MOST_FRAMES: u64 = 1_000_000;
 
-/// Columns of the table that axes share with other things.
-const RESERVED: [&str; 8] = [
-    "integrator",
-    "time_step",
-    "limit",
-    "step_over_limit",
-    "energy_gain",
-    "guard",
-    "step",
-    "sphere",
-];
-
 /// The keys of a study file.
-pub(crate) static STUDY: LazyLock<Schema> = LazyLock::new(Schema::of::<StudyFile>);
+pub(crate) static STABILITY: LazyLock<Schema> = LazyLock::new(Schema::of::<StabilityFile>);
 
 /// What a study file says.
 #[derive(Deserialize, JsonSchema)]
-pub(crate) struct StudyFile {
+pub(crate) struct StabilityFile {
     /// Which study the file describes.
     #[serde(rename = "study")]
     _study: OwnName,
@@ -59,7 +50,7 @@ pub(crate) struct StudyFile {
     /// Energy out of nothing above which a run is labelled "energy gain", over the largest energy
     /// in motion and contacts so far, or over what lifts every sphere by its radius, if that is
     /// more.
-    #[serde(default = "five_percent")]
+    #[serde(default = "default_gain")]
     #[schemars(transform = unit("").above(0.0))]
     energy_gain: f64,
 }
@@ -80,8 +71,8 @@ fn hundred() -> u64 {
     100
 }
 
-fn five_percent() -> f64 {
-    0.05
+fn default_gain() -> f64 {
+    ENERGY_GAIN
 }
 
 /// A scene is read for a study without its frames and output, which are the study's.
@@ -103,7 +94,7 @@ const READING: Reading = Reading {
 ///
 /// # Errors
 /// All that is wrong with either file, each with line, column and the fix.
-pub fn load(path: &Path) -> Result<Study, LoadError> {
+pub fn load(path: &Path) -> Result<StabilityStudy, LoadError> {
     of_document(&Document::read(path)?)
 }
 
@@ -111,18 +102,18 @@ pub fn load(path: &Path) -> Result<Study, LoadError> {
 ///
 /// # Errors
 /// Those of [`load`].
-pub fn from_str(text: &str, path: &Path) -> Result<Study, LoadError> {
+pub fn from_str(text: &str, path: &Path) -> Result<StabilityStudy, LoadError> {
     of_document(&Document::parse(text.to_owned(), path)?)
 }
 
-pub(crate) fn of_document(document: &Document) -> Result<Study, LoadError> {
+pub(crate) fn of_document(document: &Document) -> Result<StabilityStudy, LoadError> {
     FileKind::Study.expect(document)?;
     StudyName::Stability.expect(document)?;
     let mut tree = document.tree().clone();
     let mut problems = settings::complete_scene_of(&mut tree);
-    STUDY.kind.check(&tree, "", &mut problems);
+    STABILITY.kind.check(&tree, "", &mut problems);
     document.accept(&problems)?;
-    let file = StudyFile::deserialize(&tree)
+    let file = StabilityFile::deserialize(&tree)
         .map_err(|error| document.refuse(&[Problem::new("", format!("not a study: {error}"))]))?;
     let mut scene = base_scene(&file.scene, document, READING)?;
     let axes = expand_axes(&file.axis, &scene, &mut problems);
@@ -134,20 +125,62 @@ pub(crate) fn of_document(document: &Document) -> Result<Study, LoadError> {
     check_axes(&axes, &mut problems);
     check_study(&file, &axes, &mut problems);
     document.accept(&problems)?;
-    let study = Study {
+    let sweep = Sweep {
         title: file.title,
-        scene,
         axes,
-        integrators: file.integrators,
-        frames: file.frames,
-        energy_gain: file.energy_gain,
+        ..Sweep::of_scene(scene)
     };
-    check_runs(&study, document, &mut problems);
-    document.accept(&problems)?;
-    Ok(study)
+    let frames = Frames(file.frames);
+    let settings = file.integrators.iter().map(|it| setting(&sweep, *it));
+    let settings: Vec<Setting> = settings.collect();
+    let jobs = jobs(&settings, frames, document)?;
+    let measurement = Measurement::Numerics(file.energy_gain);
+    Ok(StabilityStudy {
+        comparison: Comparison::of_jobs(settings, jobs, 0, 0, measurement),
+        frames,
+    })
 }
 
-fn check_study(file: &StudyFile, axes: &[Axis], problems: &mut Vec<Problem>) {
+/// The setting of an integrator.
+fn setting(sweep: &Sweep, integrator: Integrator) -> Setting {
+    let mut sweep = sweep.clone();
+    sweep.scene.time.integrator = integrator;
+    let name = integrator.name();
+    Setting {
+        name: name.to_owned(),
+        method: name.to_owned(),
+        rung: None,
+        change: Change::of_key("time.integrator", name.into()),
+        note: None,
+        sweep,
+    }
+}
+
+/// The runs of each integrator.
+fn jobs(
+    settings: &[Setting],
+    frames: Frames,
+    document: &Document,
+) -> Result<Vec<Vec<Job>>, LoadError> {
+    let mut problems = Vec::new();
+    let points = settings.iter().map(|it| it.sweep.points());
+    if !check_jobs(points.sum(), "use fewer values", &mut problems) {
+        return Err(document.refuse(&problems));
+    }
+    let mut jobs = Vec::new();
+    for Setting { sweep, .. } in settings {
+        let scenes = sweep.grid().map(|values| frames.job(sweep, values));
+        let (own, errors): (Vec<_>, Vec<_>) = scenes.partition(Result::is_ok);
+        let errors = errors.into_iter().filter_map(Result::err);
+        // What is wrong does not depend on the integrator, but for a step that is chosen.
+        check_points(errors, &sweep.axes, document.tree(), &mut problems);
+        document.accept(&problems)?;
+        jobs.push(own.into_iter().flatten().collect());
+    }
+    Ok(jobs)
+}
+
+fn check_study(file: &StabilityFile, axes: &[Axis], problems: &mut Vec<Problem>) {
     if file.axis.len() != 2 {
         let message = format!("a study has two axes, not {}", file.axis.len());
         let problem = match file.axis.len() {
@@ -158,7 +191,7 @@ fn check_study(file: &StudyFile, axes: &[Axis], problems: &mut Vec<Problem>) {
     }
     for (index, axis) in axes.iter().enumerate() {
         let path = format!("axis[{index}]");
-        if RESERVED.contains(&axis.name.as_str()) {
+        if NUMERICS.measures().any(|it| it.name == axis.name) {
             let message = format!("the table has a column \"{}\" of its own", axis.name);
             let problem = Problem::new(format!("{path}.name"), message);
             problems.push(problem.help("choose another `name`"));
@@ -186,21 +219,5 @@ fn check_study(file: &StudyFile, axes: &[Axis], problems: &mut Vec<Problem>) {
         let message = format!("{} frames are too many", file.frames);
         let problem = Problem::new("frames", message);
         problems.push(problem.help(format!("{MOST_FRAMES} are the most")));
-    }
-}
-
-fn check_runs(study: &Study, document: &Document, problems: &mut Vec<Problem>) {
-    let jobs = points(&study.axes).saturating_mul(study.integrators.len());
-    if !check_jobs(jobs, "use fewer values", problems) {
-        return;
-    }
-    // What is wrong with a scene does not depend on the integrator, but for a step that is chosen.
-    let errors = study.integrators.iter().map(|&integrator| {
-        grid(&study.axes)
-            .filter_map(|values| study.scene_at(&values, integrator).err())
-            .collect::<Vec<_>>()
-    });
-    if let Some(errors) = errors.into_iter().find(|errors| !errors.is_empty()) {
-        check_points(errors.into_iter(), &study.axes, document.tree(), problems);
     }
 }

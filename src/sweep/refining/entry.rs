@@ -2,17 +2,20 @@
 
 use super::scale;
 use crate::document::{Problem, unit};
+use crate::grid::Axis;
+use crate::grid::{MOST_JOBS, SeedsEntry, spacing::MOST_VALUES};
 use crate::refine::{ModelKind, RefineError, Settings, start};
 use crate::scene::LARGEST_SEED;
 use crate::sweep::Sweep;
-use crate::sweep::load::MOST_JOBS;
-use crate::sweep::seeds::SeedsEntry;
-use crate::sweep::spacing::MOST_VALUES;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Why a sweep without axes is not refined.
 pub(super) const NO_AXES: &str = "a sweep without axes has no borders to refine: add `[[axis]]`";
+
+/// Why a sweep with variants is not refined.
+pub(super) const VARIANTS: &str =
+    "a sweep with variants is not refined: they have no order along which labels change";
 
 /// Most parts of a step.
 const MOST_PARTS: usize = 100;
@@ -150,6 +153,10 @@ impl RefineEntry {
         if sweep.axes.is_empty() {
             let help = "give each axis `key` and `values`, or remove the table";
             return Err(Problem::new("refine", NO_AXES).help(help));
+        }
+        if sweep.axes.iter().any(Axis::is_of_variants) {
+            let help = "remove [refine], or make a file for each variant";
+            return Err(Problem::new("refine", VARIANTS).help(help));
         }
         if let Some(bad) = self.start.iter().position(|count| *count == 0) {
             let message = "the coarse grid needs at least one value of each axis";

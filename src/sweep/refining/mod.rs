@@ -12,8 +12,8 @@ pub use learnt::{FAILED, Learnt, label_name};
 pub use refinement::{Refinement, RefinementError, Step};
 pub use rounds::{Refined, RoundsError, WatchRounds};
 
-use super::Sweep;
-use super::job::{Job, PointError};
+use super::{Job, Sweep};
+use crate::grid::{Axis, PointError};
 use crate::refine::{Finish, Lattice, RefineError, Settings, Trial, Width, start};
 use crate::scene::LARGEST_SEED;
 use serde::{Deserialize, Serialize};
@@ -146,6 +146,9 @@ impl Sweep {
     pub fn refine_by_default(&mut self) -> Result<(), String> {
         if self.axes.is_empty() {
             return Err(entry::NO_AXES.to_owned());
+        }
+        if self.axes.iter().any(Axis::is_of_variants) {
+            return Err(entry::VARIANTS.to_owned());
         }
         let is_row = |pair: &[u64]| pair[0] + 1 == pair[1];
         let (Some(&first), true) = (self.seeds.first(), self.seeds.windows(2).all(is_row)) else {

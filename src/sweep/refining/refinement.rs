@@ -3,11 +3,12 @@
 use super::learnt::{FAILED, Learnt};
 use super::{Refining, ends_before};
 use crate::classify::{Family, LabelTable};
+use crate::grid::PointError;
 use crate::refine::{
     Finish, Gap, Observations, RefineError, Round, Rounds, Settings, Trial, widths,
 };
 use crate::refusal::Refusal;
-use crate::sweep::{Folder, Job, Labelling, Plan, PointError, Sweep};
+use crate::sweep::{Folder, Job, Labelling, Plan, Sweep};
 use std::collections::HashSet;
 
 /// The rounds of a refined sweep.
@@ -222,6 +223,7 @@ impl Known {
             table: LabelTable {
                 family: Family::of(&sweep.scene),
                 axes: sweep.axes.iter().map(|axis| axis.name.clone()).collect(),
+                variants: sweep.variants(),
                 rows: Vec::new(),
             },
         }

@@ -1,7 +1,7 @@
 //! In which scale the values of an axis are evenly spaced, and values between them.
 
+use crate::grid::spacing;
 use crate::refine::{AxisScale, LatticeAxis, RefineError};
-use crate::sweep::spacing;
 
 /// Largest difference between steps that count as equal, as a share of one.
 const UNEVEN: f64 = 1e-6;

@@ -131,7 +131,6 @@ fn a_hash_table_finds_grains_that_are_far_apart() {
 #[test]
 fn cells_that_are_too_small_are_refused_with_the_reason() {
     let place = Workplace::new();
-    place.write("silo.toml", super::HOPPER);
     for search in ["cells", "hashed-cells"] {
         let text = format!(
             "neighbours = {{ search = \"{search}\", length = 0.0799 }}\n{}",
@@ -146,58 +145,4 @@ fn cells_that_are_too_small_are_refused_with_the_reason() {
         place.write("least.toml", &text.replace("0.0799", "0.08"));
         place.phase(&["check", "least.toml", "--no-trial"]).code(0);
     }
-    place
-        .phase(&["neighbours", "silo.toml", "--length", "0.0799"])
-        .code(2)
-        .complains("cells must be at least 0.08 m wide");
-}
-
-#[test]
-#[ignore = "takes seven seconds"]
-fn searches_are_compared_in_a_table_and_two_figures() {
-    let place = Workplace::new();
-    place.write("silo.toml", super::HOPPER);
-    let answer = place.phase(&[
-        "neighbours",
-        "silo.toml",
-        "--length",
-        "0.25",
-        "--count",
-        "10,60",
-        "--out",
-        "study",
-        "--json",
-    ]);
-    let answer: serde_json::Value = serde_json::from_str(&answer.code(0).stdout).unwrap();
-    assert_eq!(answer["same_bits"], true);
-    assert_eq!(answer["counts"].as_array().unwrap().len(), 8);
-    assert_eq!(answer["counts"][0]["search"], "all-pairs");
-    assert_eq!(answer["counts"][0]["speed_up"], 1.0);
-    assert_eq!(answer["lengths"][0]["length"], 0.08);
-    for row in answer["lengths"].as_array().unwrap() {
-        assert!(row["step_time"].as_f64().unwrap() > 0.0);
-    }
-    let table = place.read("study/step-time-count.csv");
-    assert!(table.starts_with("search,length,spheres,fixed,step_time,speed_up\nall-pairs,,10,"));
-    for figure in ["count", "length"] {
-        let svg = place.read(&format!("study/step-time-{figure}.svg"));
-        assert!(svg.contains("processor time of a step"), "{figure}");
-        assert!(
-            place
-                .path(&format!("study/step-time-{figure}.png"))
-                .exists()
-        );
-    }
-}
-
-// Symptom: what was measured of fewer spheres was lost when more of them did not come in.
-#[test]
-fn too_many_spheres_are_found_before_anything_is_measured() {
-    let place = Workplace::new();
-    place.write("silo.toml", super::HOPPER);
-    let answer = place
-        .phase(&["neighbours", "silo.toml", "--count", "10,100000"])
-        .code(2)
-        .complains("with 100000 spheres: the last sphere would come in at");
-    assert_eq!(answer.stdout, "");
 }

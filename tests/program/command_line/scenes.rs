@@ -1,7 +1,7 @@
 //! `phase run` and `phase check`.
 
 use super::bench::swept;
-use crate::support::{TinySweep, Workplace, drainage_file, scene_file};
+use crate::support::{TinySweep, Workplace, scene_file};
 
 #[test]
 fn one_scene_is_run_and_stored() {
@@ -117,24 +117,6 @@ fn a_record_that_is_named_like_a_folder_is_refused_before_the_run() {
             .code(2)
             .complains("this is the name of a folder");
     }
-}
-
-/// Symptom: a panic, and messages for those who write programs.
-#[test]
-fn scenes_without_a_search_are_refused() {
-    let place = Workplace::new();
-    place.write("spots.toml", &drainage_file());
-    place
-        .phase(&["neighbours", "spots.toml"])
-        .code(2)
-        .complains("spots.toml: spots search no contacts");
-    let driven = "[[driven]]\nsphere = 2\nvelocity = [0.0, 0.0, 0.0]\n";
-    place.write("driven.toml", &(scene_file() + driven));
-    let answer = place.phase(&["neighbours", "driven.toml", "--count", "1"]);
-    assert!(!answer.stderr.contains("panicked"), "{answer:?}");
-    place
-        .phase(&["neighbours", "driven.toml", "--count", "4000000000"])
-        .code(2);
 }
 
 /// Two balls, the lower on a sphere that shakes, in a tank.

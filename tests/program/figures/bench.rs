@@ -72,6 +72,7 @@ impl Tank {
             table: LabelTable {
                 family: &TANK,
                 axes: axes.iter().map(|axis| axis.name.clone()).collect(),
+                variants: Vec::new(),
                 rows,
             },
             sweep: made_up::sweep("A made-up tank", scene(), axes, &[1, 2]),

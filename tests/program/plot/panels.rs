@@ -4,8 +4,9 @@ use super::bench::{
     OMEGA, RADIUS, axis, draw, has, linear, made_up, nine, sweep, table, texts, verdict,
 };
 use phase::classify::{Label, LabelTable};
+use phase::grid::Axis;
 use phase::scene::Scene;
-use phase::sweep::{Axis, Sweep};
+use phase::sweep::Sweep;
 use std::path::Path;
 
 /// Symptom: the diagram of a refined sweep in three axes took 3.8 MB. Cause: every cell without a

@@ -354,6 +354,7 @@ fn failed_runs_are_a_label() {
     let table = LabelTable {
         family: &TANK,
         axes: vec!["omega".to_owned(), "radius".to_owned()],
+        variants: Vec::new(),
         rows: Vec::new(),
     };
     let learnt = Learnt::of(&sweep, Some(refining), &table).unwrap().unwrap();

@@ -1,13 +1,12 @@
 //! What a study of accuracy would run.
 
 use super::{Arguments, ForecastAnswer, TRIAL_TIME, describe_grid, effects, line};
-use crate::cli::commands::study;
 use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
-use crate::cli::format;
+use crate::cli::{forecast, format};
+use phase::grid::Axis;
 use phase::study::accuracy::{AccuracyStudy, Subject};
 use phase::study::comparison::Comparison;
-use phase::sweep::Axis;
 use serde::Serialize;
 use std::path::Path;
 
@@ -37,7 +36,7 @@ pub(super) fn main(
         true => None,
         false => {
             console.note("running the first part of a few jobs ...");
-            let forecast = study::forecast_settings(comparison, workers, TRIAL_TIME)?;
+            let forecast = forecast::of_settings(comparison, workers, TRIAL_TIME)?;
             let time = format::duration(forecast.seconds);
             let workers = format::count(workers.min(comparison.jobs.len()), "worker");
             console.result(line(

@@ -1,8 +1,9 @@
 //! Whether walls of fixed discs hold the spheres.
 
 use phase::dem::{WallFailure, WeakestWall, timestep};
+use phase::grid::{Axis, describe};
 use phase::scene::FixedSphere;
-use phase::sweep::{Axis, Job, describe};
+use phase::sweep::Job;
 use serde::Serialize;
 
 /// The weakest wall of all jobs, and what hits it.

@@ -69,7 +69,7 @@ impl FolderAnswer {
     ) -> Result<Self, Failure> {
         let root = folder.root();
         let sweep = folder.read_sweep()?;
-        let table = read_labels(folder)?;
+        let table = read_labels(folder)?.with_variants(sweep.variants());
         let names: Vec<&str> = match asked {
             [] => default_figures(&sweep, &table, console),
             names => names.iter().map(String::as_str).collect(),

@@ -2,9 +2,10 @@
 
 use crate::cli::console::Console;
 use crate::cli::exit::Failure;
+use phase::grid::Axis;
 use phase::record::{Program, RunRecord};
 use phase::store::{self, StoreError};
-use phase::sweep::{Axis, Folder, Job, Selection, Sweep, parse_point};
+use phase::sweep::{Folder, Job, Selection, Sweep, parse_point};
 use std::path::{Path, PathBuf};
 
 /// A job of a sweep, and where its record is.
@@ -55,7 +56,7 @@ impl Original {
             .select(&point)
             .map_err(|error| refuse(error.to_string()))?;
         if let Some(axis) = chosen.axes.iter().find(|axis| axis.values.len() > 1) {
-            let values: Vec<String> = axis.values.iter().map(f64::to_string).collect();
+            let values = axis.words();
             return Err(refuse(format!(
                 "add {}=... to choose a run; values: {}",
                 axis.name,
@@ -96,7 +97,7 @@ impl Original {
     pub(super) fn default_path(&self) -> PathBuf {
         let values = self.axes.iter().zip(&self.job.values);
         let mut name: String = values
-            .map(|(axis, value)| format!("{}-{value}_", axis.name))
+            .map(|(axis, value)| format!("{}-{}_", axis.name, axis.word(*value)))
             .collect();
         name += &format!("seed-{}.h5", self.job.seed);
         self.folder.root().join("runs").join(name)

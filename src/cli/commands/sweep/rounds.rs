@@ -4,11 +4,12 @@ use crate::cli::console::{Console, name_first};
 use crate::cli::exit::Failure;
 use crate::cli::progress::{Progress, Work};
 use crate::cli::{builds, format, job};
+use phase::grid::describe;
 use phase::record::{Outcome, RunRecord};
 use phase::run::model_of;
 use phase::sweep::{
     Event, Failure as JobFailure, Folder, Job, LocalThreads, Plan, Pool, Report, Standing, Sweep,
-    Wishes, describe,
+    Wishes,
 };
 use std::collections::HashMap;
 use std::sync::Mutex;

@@ -1,6 +1,6 @@
 //! Seeds as files write them.
 
-use super::load::MOST_JOBS;
+use super::MOST_JOBS;
 use crate::document::Problem;
 use crate::scene::LARGEST_SEED;
 use schemars::JsonSchema;
@@ -20,7 +20,7 @@ pub(crate) struct SeedsEntry {
 
 impl SeedsEntry {
     /// The first seed of a refined sweep, whose table `[refine]` says how many there are.
-    pub(super) fn first_of_refined(&self, problems: &mut Vec<Problem>) -> u64 {
+    pub(crate) fn first_of_refined(&self, problems: &mut Vec<Problem>) -> u64 {
         let given = [
             ("count", self.count.is_some()),
             ("list", self.list.is_some()),

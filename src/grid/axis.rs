@@ -1,21 +1,75 @@
 //! One axis of a sweep.
 
 use super::spacing::{self, MOST_VALUES};
+use super::{VARIANT, Variant};
 use crate::document::unit;
 use crate::document::{Problem, number, one_of};
 use crate::scene::{Scene, leaf};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// One axis of a sweep: a numeric key of the scene and the values it takes.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+/// One axis of a sweep: a numeric key of the scene and the values it takes, or variants of the
+/// scene.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Axis {
-    /// Path of the key, such as `spheres.radius`.
+    /// Path of the key, such as `spheres.radius`; [`VARIANT`] of variants.
     pub key: String,
     /// Short name, such as `radius`: the column of labels.csv.
     pub name: String,
-    /// Values, in the key's SI unit.
+    /// Values, in the key's SI unit; of variants their places among [`variants`](Self::variants).
     pub values: Vec<f64>,
+    /// The variants of the scene, if the axis is not of numbers.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub variants: Vec<Variant>,
+}
+
+impl Axis {
+    /// The axis of a numeric key.
+    pub fn of_numbers(key: impl Into<String>, name: impl Into<String>, values: Vec<f64>) -> Self {
+        Self {
+            key: key.into(),
+            name: name.into(),
+            values,
+            variants: Vec::new(),
+        }
+    }
+
+    /// The axis of variants.
+    pub fn of_variants(variants: Vec<Variant>) -> Self {
+        Self {
+            key: VARIANT.to_owned(),
+            name: VARIANT.to_owned(),
+            values: (0..variants.len()).map(|place| place as f64).collect(),
+            variants,
+        }
+    }
+
+    /// Whether its values are variants.
+    pub fn is_of_variants(&self) -> bool {
+        !self.variants.is_empty()
+    }
+
+    /// The variant of a value, if it is one.
+    pub fn variant(&self, value: f64) -> Option<&Variant> {
+        self.variants.get(value as usize)
+    }
+
+    /// A value as tables and messages show it: a number, or the name of a variant.
+    pub fn word(&self, value: f64) -> String {
+        self.variant(value)
+            .map_or_else(|| value.to_string(), |variant| variant.name.clone())
+    }
+
+    /// The value that is the variant of that name.
+    pub fn place_of(&self, name: &str) -> Option<f64> {
+        let place = self.variants.iter().position(|it| it.name == name)?;
+        Some(place as f64)
+    }
+
+    /// All values as messages show them.
+    pub fn words(&self) -> Vec<String> {
+        self.values.iter().map(|value| self.word(*value)).collect()
+    }
 }
 
 /// An axis as a sweep file writes it: `values`, or `from` and `to` with `step` or `count`.
@@ -56,7 +110,8 @@ enum Spacing {
 }
 
 /// Other columns in the tables of results; no axis may have such a name.
-const RESERVED: [&str; 18] = [
+const RESERVED: [&str; 19] = [
+    VARIANT,
     "id",
     "setting",
     "seed",
@@ -87,7 +142,7 @@ impl AxisEntry {
         let name = self.name.clone().unwrap_or_else(|| leaf(&key).to_owned());
         check_name(&name, path)?;
         let values = self.expand_values(path)?;
-        Ok(Axis { key, name, values })
+        Ok(Axis::of_numbers(key, name, values))
     }
 
     fn expand_values(&self, path: &str) -> Result<Vec<f64>, Problem> {

@@ -1,10 +1,10 @@
 //! Numbers at equal steps or equal ratios, as clean decimals.
 
 /// Largest number of values of one axis.
-pub(super) const MOST_VALUES: usize = 100_000;
+pub(crate) const MOST_VALUES: usize = 100_000;
 
 /// Number of steps of `step` from `from` to `to`, if it is whole within rounding.
-pub(super) fn whole_steps(from: f64, to: f64, step: f64) -> Option<f64> {
+pub(crate) fn whole_steps(from: f64, to: f64, step: f64) -> Option<f64> {
     let steps = (to - from) / step;
     let whole = libm::round(steps);
     ((steps - whole).abs() <= 1e-6).then_some(whole)
@@ -12,7 +12,7 @@ pub(super) fn whole_steps(from: f64, to: f64, step: f64) -> Option<f64> {
 
 /// `from`, `from + step` and so on, `steps` + 1 values: the doubles nearest to the decimals, so
 /// that 0.002 + 17 x 0.0001 is 0.0037.
-pub(super) fn steps(from: f64, step: f64, steps: usize) -> Vec<f64> {
+pub(crate) fn steps(from: f64, step: f64, steps: usize) -> Vec<f64> {
     let last = from + steps as f64 * step;
     let scale = from.abs().max(last.abs()).max(step);
     (0..=steps)
@@ -21,7 +21,7 @@ pub(super) fn steps(from: f64, step: f64, steps: usize) -> Vec<f64> {
 }
 
 /// `count` values from `from` to `to` at equal distances.
-pub(super) fn linear(from: f64, to: f64, count: usize) -> Vec<f64> {
+pub(crate) fn linear(from: f64, to: f64, count: usize) -> Vec<f64> {
     let scale = from.abs().max(to.abs());
     ends(from, to, count, |share| {
         clean(from + (to - from) * share, scale, 15)
@@ -29,7 +29,7 @@ pub(super) fn linear(from: f64, to: f64, count: usize) -> Vec<f64> {
 }
 
 /// `count` values from `from` to `to`, both positive, at equal ratios.
-pub(super) fn logarithmic(from: f64, to: f64, count: usize) -> Vec<f64> {
+pub(crate) fn logarithmic(from: f64, to: f64, count: usize) -> Vec<f64> {
     ends(from, to, count, |share| {
         let value = from * libm::pow(to / from, share);
         clean(value, value, 12)
@@ -49,7 +49,7 @@ fn ends(from: f64, to: f64, count: usize, at: impl Fn(f64) -> f64) -> Vec<f64> {
 }
 
 /// `value`, rounded to the decimals that `scale` has with this number of significant digits.
-pub(super) fn clean(value: f64, scale: f64, digits: i32) -> f64 {
+pub(crate) fn clean(value: f64, scale: f64, digits: i32) -> f64 {
     let scientific = format!("{scale:e}");
     let exponent = scientific
         .split('e')

@@ -5,22 +5,24 @@ use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::format;
 use phase::cost::Leaves;
-use phase::scene::Integrator;
-use phase::study::stability::{Study, Theory};
-use phase::sweep::{Axis, Job};
+use phase::dem::timestep::largest_stable;
+use phase::grid::Axis;
+use phase::study::comparison::Setting;
+use phase::study::stability::StabilityStudy;
 use serde::Serialize;
 use std::path::Path;
 
 /// Says what the study would run and, with a trial, what that costs.
 pub(super) fn main(
-    study: &Study,
+    study: &StabilityStudy,
     arguments: &Arguments,
     workers: usize,
     console: &Console,
 ) -> Result<Exit, Failure> {
-    let jobs = study.jobs().map_err(Failure::refused)?;
-    let spans = Span::all(study, &jobs);
-    console.result(describe(study, jobs.len()));
+    let jobs = &study.comparison.jobs;
+    let sweep = &study.comparison.settings[0].sweep;
+    let spans = Span::all(study);
+    console.result(describe(study));
     for span in &spans {
         console.result(line("time step", span.line()));
     }
@@ -28,7 +30,7 @@ pub(super) fn main(
         true => None,
         // A guard may end any run.
         false => Some(print_forecast(
-            &jobs,
+            jobs,
             workers,
             true,
             Leaves::Nothing,
@@ -38,27 +40,28 @@ pub(super) fn main(
     console.answer(&Answer {
         file: &arguments.file,
         kind: "study",
-        title: study.title.as_deref(),
+        title: sweep.title.as_deref(),
         jobs: jobs.len(),
-        axes: &study.axes,
+        axes: &sweep.axes,
         integrators: spans,
-        spheres: study.scene.spheres.count,
-        effects: effects(&study.scene),
-        duration: study.scene.time.duration,
-        frames: study.frames,
+        spheres: sweep.scene.spheres.count,
+        effects: effects(&sweep.scene),
+        duration: sweep.scene.time.duration,
+        frames: study.frames.0,
         forecast: forecast.map(|forecast| ForecastAnswer::new(&forecast, workers)),
     });
     Ok(Exit::Done)
 }
 
-fn describe(study: &Study, runs: usize) -> String {
-    let scene = &study.scene;
-    let title = study.title.as_ref().or(scene.title.as_ref());
-    let runs = format!("a study of stability, {}", format::count(runs, "run"));
-    let mut lines = describe_grid(title, &runs, &study.axes);
+fn describe(study: &StabilityStudy) -> String {
+    let sweep = &study.comparison.settings[0].sweep;
+    let scene = &sweep.scene;
+    let title = sweep.title.as_ref().or(scene.title.as_ref());
+    let runs = format::count(study.comparison.jobs.len(), "run");
+    let mut lines = describe_grid(title, &format!("a study of stability, {runs}"), &sweep.axes);
     lines.push(line("spheres", scene.spheres.count));
     lines.push(line("effects", effects(scene).join(", ")));
-    let (duration, frames) = (scene.time.duration, study.frames);
+    let (duration, frames) = (scene.time.duration, study.frames.0);
     let text = format!("{duration} s in about {frames} frames, of whole steps");
     lines.push(line("duration", text));
     lines.join("\n")
@@ -67,7 +70,7 @@ fn describe(study: &Study, runs: usize) -> String {
 /// How far the steps of an integrator's runs go below and above their limit.
 #[derive(Serialize)]
 struct Span {
-    integrator: &'static str,
+    integrator: String,
     runs: usize,
     /// Least and largest time step over its limit; none where nothing limits the step.
     least_ratio: Option<f64>,
@@ -75,27 +78,26 @@ struct Span {
 }
 
 impl Span {
-    fn all(study: &Study, jobs: &[Job]) -> Vec<Self> {
-        let of = |&integrator: &Integrator| {
-            let own = jobs
-                .iter()
-                .filter(move |job| job.scene.time.integrator == integrator);
+    fn all(study: &StabilityStudy) -> Vec<Self> {
+        let comparison = &study.comparison;
+        let of = |(place, setting): (usize, &Setting)| {
+            let own = comparison.jobs_of(place);
             let ratios = own.clone().filter_map(|job| {
-                let limit = Theory::of(&job.scene).decisive?;
+                let limit = largest_stable(&job.scene)?;
                 Some(job.scene.time.dt / limit.seconds)
             });
             Self {
-                integrator: integrator.name(),
+                integrator: setting.name.clone(),
                 runs: own.count(),
                 least_ratio: ratios.clone().reduce(f64::min),
                 largest_ratio: ratios.reduce(f64::max),
             }
         };
-        study.integrators.iter().map(of).collect()
+        comparison.settings.iter().enumerate().map(of).collect()
     }
 
     fn line(&self) -> String {
-        let (name, runs) = (self.integrator, format::count(self.runs, "run"));
+        let (name, runs) = (&self.integrator, format::count(self.runs, "run"));
         match (self.least_ratio, self.largest_ratio) {
             (Some(least), Some(largest)) => {
                 format!("{least:.3} to {largest:.3} of the limit in {runs} ({name})")

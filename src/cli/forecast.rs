@@ -1,0 +1,44 @@
+//! What the runs of a study will cost.
+
+use super::exit::Failure;
+use phase::cost::{Forecast, Leaves, forecast};
+use phase::study::comparison::Comparison;
+use phase::sweep::Job;
+use std::collections::HashSet;
+use std::time::Duration;
+
+/// What the settings of a comparison will cost, each from a short trial of its own.
+pub(super) fn of_settings(
+    comparison: &Comparison,
+    workers: usize,
+    budget: Duration,
+) -> Result<Forecast, Failure> {
+    let settings = comparison.settings.len().max(1) as u32;
+    let mut known = HashSet::new();
+    let mut sum: Option<Forecast> = None;
+    for setting in &comparison.settings {
+        let jobs = setting.sweep.jobs().map_err(Failure::refused)?.into_iter();
+        let jobs: Vec<Job> = jobs.filter(|job| known.insert(job.id.clone())).collect();
+        if jobs.is_empty() {
+            continue;
+        }
+        let own = forecast(&jobs, workers, budget / settings, Leaves::Nothing);
+        let own = own.map_err(Failure::failed)?;
+        sum = Some(match sum {
+            None => own,
+            Some(sum) => {
+                let (work, seconds) = (sum.work + own.work, sum.seconds + own.seconds);
+                let spent = sum.work as f64 / sum.rate + own.work as f64 / own.rate;
+                Forecast {
+                    tried: sum.tried + own.tried,
+                    work,
+                    rate: work as f64 / spent,
+                    seconds,
+                    memory: sum.memory.max(own.memory),
+                    disk: None,
+                }
+            }
+        });
+    }
+    sum.ok_or_else(|| Failure::refused("the study has no runs"))
+}
