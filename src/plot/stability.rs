@@ -1,5 +1,5 @@
-//! The phase diagram of the numerics: a panel for each integrator, with the theoretical limit of the
-//! time step over it.
+//! The phase diagram of the numerics: a panel for each integrator, with the theoretical limit of
+//! the time step on top.
 
 use super::contour::{Nodes, Piece};
 use super::diagram::{PanelCurve, Stroke};

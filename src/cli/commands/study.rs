@@ -21,10 +21,10 @@ use std::path::{Path, PathBuf};
 
 /// Make the runs of a study, and say what follows from them.
 ///
-/// The file says which study it is (`study = "..."`): of `stability`, where integrators are stable
-/// over two keys of a scene; of `accuracy`, what settings of a scene cost in time and how wrong they
-/// are; an `ablation` of a sweep, which takes each effect away by itself, or down to its simpler
-/// law. With --ablate any scene or sweep is ablated. Runs whose row is in the table already are not
+/// The file names the study (`study = "..."`). `stability` finds where integrators are stable over
+/// two keys of a scene. `accuracy` measures what settings of a scene cost in time, and how wrong
+/// they are. `ablation` takes each effect of a sweep away by itself, or reduces it to a
+/// simpler law; --ablate does so for any scene or sweep. Runs that have a row in the table are not
 /// made again.
 #[derive(clap::Args)]
 #[command(after_help = "\
