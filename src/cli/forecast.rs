@@ -16,9 +16,9 @@ pub(super) fn of_settings(
     let settings = comparison.settings.len().max(1) as u32;
     let mut known = HashSet::new();
     let mut sum: Option<Forecast> = None;
-    for setting in &comparison.settings {
-        let jobs = setting.sweep.jobs().map_err(Failure::refused)?.into_iter();
-        let jobs: Vec<Job> = jobs.filter(|job| known.insert(job.id.clone())).collect();
+    for place in 0..comparison.settings.len() {
+        let jobs = comparison.jobs_of(place);
+        let jobs: Vec<Job> = jobs.filter(|job| known.insert(&job.id)).cloned().collect();
         if jobs.is_empty() {
             continue;
         }

@@ -272,7 +272,7 @@ fn check_values(values: &[f64], path: &str) -> Result<Vec<f64>, Problem> {
     let values: Vec<f64> = values.iter().map(|value| value + 0.0).collect();
     for (index, value) in values.iter().enumerate() {
         if !seen.insert(value.to_bits()) {
-            let message = format!("the value {} is there twice", number(*value));
+            let message = format!("duplicate value {}", number(*value));
             return Err(Problem::new(format!("{path}[{index}]"), message)
                 .help("remove one; replicates of a point belong in [seeds]"));
         }

@@ -51,7 +51,7 @@ pub(crate) fn expand_seeds(entry: Option<&SeedsEntry>, problems: &mut Vec<Proble
             for (index, seed) in list.iter().enumerate() {
                 if list[..index].contains(seed) {
                     let path = format!("seeds.list[{index}]");
-                    let message = format!("the seed {seed} is there twice");
+                    let message = format!("duplicate seed {seed}");
                     let help = "equal seeds give equal runs; remove one";
                     problems.push(Problem::new(path, message).help(help));
                 }

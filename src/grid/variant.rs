@@ -70,22 +70,34 @@ pub(crate) fn check_variants(
     for (index, VariantEntry { name, .. }) in entries.iter().enumerate() {
         let path = format!("variant[{index}]");
         if entries[..index].iter().any(|earlier| earlier.name == *name) {
-            let message = format!("the name \"{name}\" is there twice");
+            let message = format!("duplicate name \"{name}\"");
             let problem = Problem::new(format!("{path}.name"), message);
             problems.push(problem.help("choose another one"));
         }
-        let is_plain = !name.trim().is_empty() && !name.contains(char::is_control);
-        let is_number = name.trim().parse::<f64>().is_ok();
-        if !is_plain || is_number || taken.contains(&name.as_str()) {
+        if !is_plain(name) || taken.contains(&name.as_str()) {
             let message = format!("{name:?} cannot be the name of a variant");
             let problem = Problem::new(format!("{path}.name"), message);
-            problems.push(problem.help("choose one in plain letters that no other setting has"));
+            problems.push(problem.help(
+                "choose a name that no other setting has, of at most 60 letters, digits, spaces \
+                 and the characters . _ - + = ( ) %; it begins with a letter or digit and is not a \
+                 number",
+            ));
         }
         if entries[index].change().is_empty() {
             let problem = Problem::new(path, "the variant changes nothing");
-            problems.push(problem.help("add `set` or `without`"));
+            problems.push(problem.help("add `set`, `without` or `scale`"));
         }
     }
+}
+
+/// Whether a name can stand in tables, in points of the command line and in names of files.
+fn is_plain(name: &str) -> bool {
+    let is_allowed = |it: char| it.is_alphanumeric() || " ._-+=()%".contains(it);
+    name.starts_with(char::is_alphanumeric)
+        && !name.ends_with(' ')
+        && name.chars().all(is_allowed)
+        && name.chars().count() <= 60
+        && name.parse::<f64>().is_err()
 }
 
 /// The axis of variants of a scene beside other axes; none without variants.
@@ -135,6 +147,12 @@ pub(crate) fn nothing_to_leave_out(path: &str, absent: &str) -> Problem {
 pub(crate) fn check_change(change: &Change, axes: &[Axis]) -> Result<(), Vec<Problem>> {
     let taken = change.paths().into_iter().chain(change.remove.clone());
     for path in taken {
+        if path == "seed" {
+            let message = "`seed` is changed, but every run has a seed of [seeds]";
+            return Err(vec![
+                Problem::new(path, message).help("use [seeds], or remove it here"),
+            ]);
+        }
         if let Some(axis) = axes.iter().find(|axis| is_within(&axis.key, &path)) {
             let message = format!(
                 "`{path}` is changed, but the axis `{}` varies it",

@@ -6,14 +6,15 @@ use crate::classify::{ClassifyError, Family, Sieves};
 use crate::document::{Document, LoadError, Problem, Schema, one_of, suggest};
 use crate::grid::{
     AxisEntry, PointScenes, SceneTree, SeedsEntry, VariantEntry, base_scene, check_axes,
-    check_jobs, check_number_of_axes, check_points, check_steps, expand_axes, expand_seeds,
-    expand_variants, or_path,
+    check_jobs, check_number_of_axes, check_points, check_steps, describe_point, expand_axes,
+    expand_seeds, expand_variants, or_path,
 };
 use crate::run::Reading;
 use crate::scene::{FileKind, Scene, settings};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::Value;
+use std::collections::HashMap;
 use std::path::Path;
 use std::sync::LazyLock;
 
@@ -243,8 +244,30 @@ fn check_grid(sweep: &Sweep, document: &Document, problems: &mut Vec<Problem>) {
         Ok(scenes) => scenes,
         Err(error) => return problems.extend(error.problems),
     };
-    let errors = sweep
-        .grid()
-        .filter_map(|values| scenes.checked(&values).err());
+    let has_variants = sweep.axes.iter().any(|axis| !axis.variants.is_empty());
+    let mut points: HashMap<String, Vec<f64>> = HashMap::new();
+    let mut same = None;
+    let errors = sweep.grid().filter_map(|values| {
+        let scene = match scenes.checked(&values) {
+            Ok(scene) => scene,
+            Err(error) => return Some(error),
+        };
+        if has_variants && let Some(earlier) = points.insert(scene.identity(), values.clone()) {
+            same.get_or_insert((earlier, values));
+        }
+        None
+    });
     check_points(errors, &sweep.axes, document.tree(), problems);
+    if let Some((earlier, values)) = same {
+        problems.push(same_scene(sweep, &earlier, &values));
+    }
+}
+
+/// The problem of two points with one scene: their runs have one identity, and one row in tables.
+fn same_scene(sweep: &Sweep, earlier: &[f64], values: &[f64]) -> Problem {
+    let [earlier, later] = [earlier, values].map(|it| describe_point(&sweep.axes, it));
+    let message = format!("two points are the same scene: {earlier}; and {later}");
+    let variant = values.last().map_or(0, |place| *place as usize);
+    Problem::new(format!("variant[{variant}]"), message)
+        .help("change or remove one of the variants, or a value of an axis")
 }

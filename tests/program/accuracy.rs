@@ -303,10 +303,22 @@ key = "neighbours.length"
 values = [0.01, 0.04]
 "#;
     place.write("times.toml", &format!("{study}{SCENE}"));
+    let checked = place.phase(&["check", "times.toml", "--json"]).code(0);
     place
         .phase(&["study", "times.toml"])
         .code(0)
         .says("24 runs: 24 made now");
+    // The forecast took runs of one identity for one run.
+    let checked: Value = serde_json::from_str(&checked.stdout).unwrap();
+    let runs = place.read("results/accuracy/times/runs.csv");
+    let mut runs = csv::Reader::from_reader(runs.as_bytes());
+    let mut columns = runs.headers().unwrap().iter();
+    let column = columns.position(|name| name == "sphere_steps").unwrap();
+    let made: u64 = runs
+        .records()
+        .map(|row| row.unwrap()[column].parse::<u64>().unwrap())
+        .sum();
+    assert_eq!(checked["forecast"]["sphere_steps"], made);
     for (x, line) in [("count", "all pairs"), ("length", "count = 4")] {
         let figure = place.read(&format!("results/accuracy/times/step-time-{x}.svg"));
         let texts = crate::support::texts(&figure);

@@ -168,7 +168,7 @@ fn check(ladders: &[Ladder], variants: &[VariantEntry], problems: &mut Vec<Probl
             };
             if ladder.values[..place].iter().any(is_same) {
                 let path = format!("{path}.values[{place}]");
-                let problem = Problem::new(path, format!("the value {value} is there twice"));
+                let problem = Problem::new(path, format!("duplicate value {value}"));
                 problems.push(problem.help("remove one"));
             }
         }

@@ -107,7 +107,7 @@ fn sentence(
     let how_wrong = how_wrong(evaluation, cheapest);
     let base = &evaluation.outcomes[evaluation.as_it_is];
     if cheapest.name == base.name {
-        return format!("The scene as it is is the cheapest setting {wanted}: {how_wrong}.");
+        return format!("The cheapest setting {wanted} is the scene as it is: {how_wrong}.");
     }
     let times = |ratio: Option<f64>| ratio.unwrap_or(f64::NAN);
     let cost = match time_ratio {
@@ -119,7 +119,7 @@ fn sentence(
         ),
         _ => format!(
             "It takes {:.1} times the processor time of the scene as it is and {:.1} times its \
-             force evaluations. Of that scene: {}",
+             force evaluations. The scene as it is: {}",
             times(time_ratio),
             times(work_ratio),
             self::how_wrong(evaluation, base)
@@ -164,7 +164,7 @@ fn wanted(evaluation: &Evaluation) -> String {
 fn how_wrong(evaluation: &Evaluation, outcome: &Outcome) -> String {
     match &outcome.errors {
         Errors::States(_) if Some(&outcome.name) == reference(evaluation) => {
-            "it is what others are compared with".to_owned()
+            "it is the reference".to_owned()
         }
         Errors::States(states) => {
             let labels = of_labels(states);
@@ -178,7 +178,7 @@ fn how_wrong(evaluation: &Evaluation, outcome: &Outcome) -> String {
             }
         }
         Errors::Motion(_) | Errors::Case(_) => match outcome.error(evaluation.counted_time) {
-            Some(0.0) => "it is what others are compared with".to_owned(),
+            Some(0.0) => "it is the reference".to_owned(),
             error => format!("its error is {}", short(error.unwrap_or(f64::NAN))),
         },
     }
@@ -197,8 +197,8 @@ fn of_labels(states: &States) -> String {
             percent(it.excess.high)
         ),
         false => format!(
-            "no difference is seen beyond that of seeds ({}), but one of up to {} could have \
-             hidden",
+            "no effect beyond seed-to-seed variation ({}); an effect of up to {} cannot be \
+             excluded",
             percent(it.floor.value),
             percent(it.excess.high)
         ),
@@ -368,9 +368,9 @@ mod tests {
         assert_eq!(found.cheapest.as_deref(), Some("sure"));
         assert_eq!(
             found.sentence,
-            "The cheapest setting that changes at most 5.0 % of the labels is sure: no difference \
-             is seen beyond that of seeds (10.0 %), but one of up to 4.0 % could have hidden. It \
-             saves 50 % of the processor time of the scene as it is, and 50 % of its force \
+            "The cheapest setting that changes at most 5.0 % of the labels is sure: no effect \
+             beyond seed-to-seed variation (10.0 %); an effect of up to 4.0 % cannot be excluded. \
+             It saves 50 % of the processor time of the scene as it is, and 50 % of its force \
              evaluations."
         );
         let mut all_unstable = outcomes();
@@ -411,9 +411,9 @@ mod tests {
         assert!(!sentence(None).contains("order parameters"));
         assert_eq!(
             sentence(Some(0.5)),
-            "The scene as it is is the cheapest setting that changes at most 5.0 % of the labels \
-             and shifts order parameters by at most 0.5 of their spread: no difference is seen \
-             beyond that of seeds (10.0 %), but one of up to 1.0 % could have hidden; order \
+            "The cheapest setting that changes at most 5.0 % of the labels and shifts order \
+             parameters by at most 0.5 of their spread is the scene as it is: no effect beyond \
+             seed-to-seed variation (10.0 %); an effect of up to 1.0 % cannot be excluded; order \
              parameters shift by at most 0.40 of their spread (packing height)."
         );
         assert!(sentence(Some(0.3)).starts_with("There is no setting"));
@@ -432,7 +432,7 @@ mod tests {
             found.sentence,
             "The cheapest setting with an error of at most 0.010 at 0.5 s is fine: its error is \
              4.0e-3. It takes 2.0 times the processor time of the scene as it is and 2.0 times its \
-             force evaluations. Of that scene: its error is 0.100."
+             force evaluations. The scene as it is: its error is 0.100."
         );
     }
 

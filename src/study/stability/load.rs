@@ -205,7 +205,7 @@ fn check_study(file: &StabilityFile, axes: &[Axis], problems: &mut Vec<Problem>)
     let mut seen = Vec::new();
     for (index, integrator) in file.integrators.iter().enumerate() {
         if seen.contains(integrator) {
-            let message = format!("\"{}\" is there twice", integrator.name());
+            let message = format!("duplicate integrator \"{}\"", integrator.name());
             let problem = Problem::new(format!("integrators[{index}]"), message);
             problems.push(problem.help("remove one"));
         }

@@ -78,7 +78,7 @@ fn describe(study: &AccuracyStudy, comparison: &Comparison, console: &Console) {
     for (place, setting) in comparison.settings.iter().enumerate() {
         let mut text = setting.name.clone();
         if place == comparison.reference {
-            text += " (others are compared with it)";
+            text += " (the reference)";
         }
         if let Some(note) = &setting.note {
             text += &format!("; {note}");
