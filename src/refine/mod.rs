@@ -10,14 +10,14 @@
 //! all machines.
 //!
 //! ```
-//! use phase::refine::{Axis, Borders, Lattice, Round, Rounds, Scale, Settings};
+//! use phase::refine::{LatticeAxis, Borders, Lattice, Round, Rounds, AxisScale, Settings};
 //!
 //! // The label is 3 above a line, and 1 below it.
 //! let label = |values: &[f64]| if values[1] > 2.0 + 0.3 * values[0] { 3 } else { 1 };
 //! let values: Vec<f64> = (0..=20).map(|k| 0.5 * f64::from(k)).collect();
 //! let lattice = Lattice::new(vec![
-//!     Axis::new("radius", values.clone(), Scale::Linear)?,
-//!     Axis::new("omega", values, Scale::Linear)?,
+//!     LatticeAxis::new("radius", values.clone(), AxisScale::Linear)?,
+//!     LatticeAxis::new("omega", values, AxisScale::Linear)?,
 //! ])?;
 //! let mut rounds = Rounds::new(lattice.clone(), Settings::with_budget(60))?;
 //! while let Round::Runs(runs) = rounds.next_round()? {
