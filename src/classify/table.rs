@@ -46,7 +46,7 @@ impl LabelTable {
     /// Name of the axis whose values are variants.
     pub const VARIANT: &'static str = "variant";
 
-    /// Which of the axes is that of variants, if there is one.
+    /// The place of the axis of variants, if the sweep has one.
     pub fn axis_of_variants(&self) -> Option<usize> {
         let mut names = self.axes.iter();
         names.position(|name| name == Self::VARIANT)

@@ -18,7 +18,7 @@ pub struct PlotError {
 pub enum PlotErrorKind {
     /// The request: a figure, point or effect that does not exist here.
     Request,
-    /// Nothing is there that the figure shows.
+    /// The runs have nothing that the figure shows.
     Nothing,
     /// A table or record that it is drawn from, or the settings of its axes.
     File,

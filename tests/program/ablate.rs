@@ -193,7 +193,7 @@ fn a_file_or_an_option_asks_for_an_ablation() {
         (ablated.len(), &ablated[0]["name"]),
         (1, &"spin damping off".into())
     );
-    // Its runs are among those of all effects.
+    // The runs of all effects include its runs.
     assert_eq!(of_option["run_now"], 0);
     assert!(of_file["runs"].as_u64() > of_option["runs"].as_u64());
 

@@ -137,8 +137,7 @@ fn files_of_one_name_do_not_share_a_folder() {
         .says("6 jobs: 0 run now");
 }
 
-/// Symptom: what a killed process had begun was left to the next command. Now one that runs the same
-/// sweep waits for it, and takes it over.
+/// Symptom: the run of a killed process was left to the next command. Cause: nobody waited for it.
 #[cfg(unix)]
 #[test]
 fn the_run_of_a_killed_process_is_taken_over_by_one_at_work() {

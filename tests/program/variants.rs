@@ -87,7 +87,7 @@ fn tables_figures_and_answers_name_variants() {
             "no {name} in {figure:?}"
         );
     }
-    // What is there is read again, with variants in their places.
+    // A second sweep reads the tables, with variants in their places.
     place.phase(&["sweep", "tiny.toml"]).code(0);
     place
         .phase(&["classify", folder])

@@ -130,8 +130,8 @@ fn a_budget_beyond_the_whole_grid_runs_more_seeds() {
     assert_eq!(content(&place, "results"), content(&place, "other"));
 }
 
-/// Symptom: a refined sweep refused published labels with more seeds at some points. Cause: only the
-/// jobs of the same sweep were thought to stay. They all count if they are no more than the budget.
+/// Symptom: a refined sweep refused published labels with more seeds at some points. Cause: only
+/// jobs of the same sweep counted. All count if they are no more than the budget.
 #[test]
 fn published_labels_with_more_seeds_at_some_points_count_without_records() {
     let place = Workplace::new();

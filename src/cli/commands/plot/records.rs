@@ -18,12 +18,12 @@ const DEFAULT_OF_DRAINAGE: [&str; 2] = ["surface-angle", "radial-distribution"];
 /// The figure that any record of discrete elements has, whatever its family.
 const OF_ELEMENTS: &str = "energies";
 
-/// The figures of one record alone: those of what only some records hold.
+/// Figures that need one record alone, with data that only some records hold.
 fn of_one() -> impl Iterator<Item = &'static Figure> {
     plot::figures().iter().filter(|it| it.is_of_one_record())
 }
 
-/// All figures of a record: those of one record, and those of single runs that folders have too.
+/// All figures of a record: figures of one record alone, and figures of single runs.
 fn known(record: &RunRecord) -> Vec<&'static Figure> {
     let family = Family::of(&record.scene);
     let has_energies = record.scene.spot.is_none();
