@@ -2,7 +2,7 @@
 
 use super::console::Console;
 use super::exit::{Exit, Failure};
-use phase::store;
+use phase::store::{self, Holder};
 use phase::sweep::Folder;
 use serde::Serialize;
 use std::fs::File;
@@ -39,6 +39,14 @@ impl<E: Into<Failure>> From<E> for Undone {
     fn from(error: E) -> Self {
         Self::Failed(error.into())
     }
+}
+
+/// Says that it takes time to tell whether a process on another machine is at work in a folder.
+pub(super) fn tell_of_waiting(folder: &Folder, holder: &Holder, console: &Console) {
+    console.note(format_args!(
+        "{}: watching for up to two minutes whether {holder} is still at work in this folder",
+        folder.root().display()
+    ));
 }
 
 /// Calls `act` for the results folders found at `dir`. If `dir` holds them, one that fails is named

@@ -1,6 +1,7 @@
 //! Files that appear whole or not at all.
 
 use super::StoreError;
+use super::process::{Process, is_alive};
 use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
@@ -136,32 +137,8 @@ fn writer_of(name: &str) -> Option<u32> {
 
 /// The name of this machine, as far as it may stand in the name of a file.
 fn machine() -> String {
-    #[cfg(unix)]
-    let name = rustix::system::uname()
-        .nodename()
-        .to_string_lossy()
-        .into_owned();
-    #[cfg(not(unix))]
-    let name = std::env::var("COMPUTERNAME").unwrap_or_default();
-    name.chars().filter(char::is_ascii_alphanumeric).collect()
-}
-
-/// Whether there is such a process, as far as the system tells.
-fn is_alive(process: u32) -> bool {
-    #[cfg(unix)]
-    {
-        let process = i32::try_from(process).ok();
-        let process = process.and_then(rustix::process::Pid::from_raw);
-        // A process of another user exists, too, although it may not be signalled.
-        process.is_some_and(|process| {
-            rustix::process::test_kill_process(process) != Err(rustix::io::Errno::SRCH)
-        })
-    }
-    #[cfg(not(unix))]
-    {
-        let _ = process;
-        true
-    }
+    let name = Process::this().host.chars();
+    name.filter(char::is_ascii_alphanumeric).collect()
 }
 
 /// Removes the temporary files that killed programs left in `folder`; returns their number. What

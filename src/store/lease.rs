@@ -1,139 +1,422 @@
-//! The right of one process to make a run that others may want to make too.
+//! The right of one process to do what others may want to do too, on any machine that sees the
+//! folder.
+//!
+//! A lease is a file that only one process can make (`O_EXCL`), which works where files cannot be
+//! locked, as on many file systems of clusters. Its holder touches it every [`BEAT`]. A process of
+//! the same machine sees at once whether the holder is dead. One of another machine watches the
+//! file: if its time does not change for [`PATIENCE`] by the watcher's own clock, the holder is
+//! taken to be dead. No clock of two machines is compared.
+//!
+//! Whoever breaks the lease `NAME` of a dead holder first makes `NAME.1`, which again only one can
+//! do, and gives it the name `NAME`. Should that process die in between, `NAME.1` is broken with
+//! `NAME.2`, and so on.
 
-use super::lock::{Lock, hold, is_locked, look};
+use super::process::Process;
 use serde::{Deserialize, Serialize};
-use std::fs::{File, OpenOptions};
-use std::io::{self, ErrorKind, Write};
-use std::path::Path;
-use std::time::{SystemTime, UNIX_EPOCH};
+use std::collections::HashMap;
+use std::ffi::OsString;
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, ErrorKind, Read, Write};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, LazyLock, Mutex, MutexGuard, Once, PoisonError, Weak};
+use std::thread;
+use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
-/// Who has a lease: what the file says to people.
+/// Time between two signs of life of a holder.
+const BEAT: Duration = Duration::from_secs(15);
+
+/// How long a holder on another machine may give no sign of life. Network file systems show a
+/// change after up to a minute.
+const PATIENCE: Duration = Duration::from_secs(120);
+
+/// Time between two looks at a file whose holder may be dead.
+const BETWEEN_LOOKS: Duration = Duration::from_millis(500);
+
+/// How many broken leases in a row are broken. More means that no process can keep one.
+const LONGEST_CHAIN: usize = 16;
+
+/// How the name of a lease ends.
+const SUFFIX: &str = ".lease";
+
+/// Who has a lease: what its file says.
+///
+/// [`Display`](std::fmt::Display) names the process for people.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Holder {
-    /// Number of the process.
-    pub process: u32,
-    /// When it was taken (seconds since 1970).
+    /// The process.
+    #[serde(flatten)]
+    pub process: Process,
+    /// When it was taken, by the clock of the holder (seconds since 1970).
     pub since: u64,
+    /// Number of the lease in its process.
+    serial: u64,
 }
 
-/// The right to make a run: a file `NAME.lease` beside its record NAME.h5. Only one process can
-/// make the file; it is locked while the process lives, and removed with the lease. One that a
-/// process left behind is taken over.
+impl std::fmt::Display for Holder {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "process {} on {}", self.process.number, self.process.host)?;
+        match &self.process.task {
+            Some(task) => write!(f, " ({task})"),
+            None => Ok(()),
+        }
+    }
+}
+
+/// A right that this process has, given back when it is dropped.
 #[derive(Debug)]
-pub struct Lease(#[expect(dead_code, reason = "gives the lease back when it is dropped")] Lock);
+pub struct Lease {
+    path: PathBuf,
+    holder: Holder,
+    // Signs of life end with it.
+    _file: Arc<File>,
+}
+
+/// What is known of a lease.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Tenure {
+    /// Nobody has it.
+    Free,
+    /// Its holder lives, or has not been watched for long enough. What the file says of the holder
+    /// cannot be read for an instant after it was made.
+    Held(Option<Holder>),
+    /// Its holder is dead.
+    Stale(Option<Holder>),
+}
 
 impl Lease {
-    /// Takes the lease of the run of that record. None if another process has it.
+    /// Takes a lease, a file of that name with `.lease` appended. None if another process has it.
     ///
     /// # Errors
-    /// If the file cannot be made.
-    pub fn take(record: &Path) -> io::Result<Option<Self>> {
-        let path = record.with_extension("lease");
-        let made = OpenOptions::new().write(true).create_new(true).open(&path);
-        let file = match made {
-            Ok(file) => file,
-            Err(error) if error.kind() == ErrorKind::AlreadyExists => {
-                match OpenOptions::new().write(true).open(&path) {
-                    Ok(file) => file,
-                    // Given back meanwhile: its record is there, or it is free the next time.
-                    Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
-                    Err(error) => return Err(error),
+    /// If the file cannot be made or read.
+    pub fn take(name: &Path) -> io::Result<Option<Self>> {
+        Leases::ours().take(&file_of(name))
+    }
+
+    /// Takes the right to write a file NAME: the lease `.NAME`, whose file people do not see. Waits
+    /// for so long for a process that has it.
+    ///
+    /// # Errors
+    /// Those of [`take`](Self::take).
+    pub fn take_beside(file: &Path, time: Duration) -> io::Result<Option<Self>> {
+        let mut name = OsString::from(".");
+        name.push(file.file_name().unwrap_or_default());
+        let name = file.with_file_name(name);
+        let begun = Instant::now();
+        loop {
+            let taken = Self::take(&name)?;
+            if taken.is_some() || begun.elapsed() >= time {
+                return Ok(taken);
+            }
+            thread::sleep(Duration::from_millis(20));
+        }
+    }
+
+    /// Who has a lease.
+    pub fn tenure(name: &Path) -> Tenure {
+        let tenure = Leases::ours().tenure(&file_of(name));
+        tenure.unwrap_or(Tenure::Held(None))
+    }
+
+    /// Whether another process has a lease.
+    pub fn is_taken(name: &Path) -> bool {
+        matches!(Self::tenure(name), Tenure::Held(_))
+    }
+
+    /// Watches a lease until it is known whether its holder lives: up to [`PATIENCE`] if it is on
+    /// another machine. Calls `wait` before the first pause.
+    pub(crate) fn watch(name: &Path, wait: &dyn Fn(&Holder)) -> Tenure {
+        Leases::ours().watch(&file_of(name), wait)
+    }
+
+    /// The name of the lease whose file that is, if it is a lease or was made to break one.
+    pub(crate) fn name_of(file: &str) -> Option<&str> {
+        let (name, rest) = file.rsplit_once(SUFFIX)?;
+        let number = rest.strip_prefix('.');
+        let breaks = number.is_some_and(|it| it.bytes().all(|byte| byte.is_ascii_digit()));
+        (rest.is_empty() || breaks).then_some(name)
+    }
+}
+
+impl Drop for Lease {
+    fn drop(&mut self) {
+        // A holder that was taken to be dead has lost the lease to another process.
+        let is_ours = matches!(look(&self.path), Ok(Some(it)) if it.holder.as_ref() == Some(&self.holder));
+        if is_ours {
+            // If it cannot be removed, it is broken by who wants it next.
+            let _ = fs::remove_file(&self.path);
+        }
+    }
+}
+
+/// The leases that one process holds and watches.
+struct Leases {
+    process: Process,
+    beat: Duration,
+    patience: Duration,
+    /// The clock that signs of life are written with.
+    clock: fn() -> SystemTime,
+    taken: AtomicU64,
+    held: Arc<Mutex<Vec<Weak<File>>>>,
+    beats: Once,
+    watched: Mutex<HashMap<PathBuf, Watched>>,
+}
+
+/// A lease of another process when it was first seen like this.
+struct Watched {
+    seen: Seen,
+    since: Instant,
+}
+
+/// What a look at a file gives.
+#[derive(Clone, PartialEq, Eq)]
+struct Seen {
+    /// None if the file does not say it, or not yet.
+    holder: Option<Holder>,
+    changed: Option<SystemTime>,
+}
+
+impl Leases {
+    fn ours() -> &'static Self {
+        static OURS: LazyLock<Leases> =
+            LazyLock::new(|| Leases::new(Process::this().clone(), BEAT, PATIENCE, SystemTime::now));
+        &OURS
+    }
+
+    fn new(
+        process: Process,
+        beat: Duration,
+        patience: Duration,
+        clock: fn() -> SystemTime,
+    ) -> Self {
+        Self {
+            process,
+            beat,
+            patience,
+            clock,
+            taken: AtomicU64::new(0),
+            held: Arc::default(),
+            beats: Once::new(),
+            watched: Mutex::default(),
+        }
+    }
+
+    fn take(&self, path: &Path) -> io::Result<Option<Lease>> {
+        let holder = self.holder();
+        let mut stale: Vec<(PathBuf, Option<Holder>)> = Vec::new();
+        for number in 0..LONGEST_CHAIN {
+            let name = link(path, number);
+            if let Some(file) = make(&name, &holder)? {
+                let took = self.settle(path, &name, &stale)?;
+                return Ok(took.then(|| self.keep(path, holder, file)));
+            }
+            match self.tenure(&name)? {
+                Tenure::Stale(of) => stale.push((name, of)),
+                // Given back meanwhile: what it was held for is done, or it is free the next time.
+                Tenure::Free | Tenure::Held(_) => return Ok(None),
+            }
+        }
+        Ok(None)
+    }
+
+    /// Whether the file `name`, which this process has made, gives it the lease: always if it is
+    /// the lease itself, and else if those before it in the chain are still the stale ones.
+    fn settle(
+        &self,
+        path: &Path,
+        name: &Path,
+        stale: &[(PathBuf, Option<Holder>)],
+    ) -> io::Result<bool> {
+        if stale.is_empty() {
+            return Ok(true);
+        }
+        for (before, of) in stale {
+            if !look(before)?.is_some_and(|it| it.holder == *of) {
+                // Another process has broken it.
+                remove(name)?;
+                return Ok(false);
+            }
+        }
+        match fs::rename(name, path) {
+            Ok(()) => {}
+            // This process has paused for so long that another one took it to be dead.
+            Err(error) if error.kind() == ErrorKind::NotFound => return Ok(false),
+            Err(error) => return Err(error),
+        }
+        for (left, _) in &stale[1..] {
+            remove(left)?;
+        }
+        self.watched().remove(path);
+        Ok(true)
+    }
+
+    fn keep(&self, path: &Path, holder: Holder, file: File) -> Lease {
+        let file = Arc::new(file);
+        lock(&self.held).push(Arc::downgrade(&file));
+        self.beats.call_once(|| self.start_beats());
+        Lease {
+            path: path.to_owned(),
+            holder,
+            _file: file,
+        }
+    }
+
+    /// A thread that touches the files of all leases now and then, until this is dropped.
+    fn start_beats(&self) {
+        let held = Arc::downgrade(&self.held);
+        let (beat, clock) = (self.beat, self.clock);
+        let beats = move || {
+            loop {
+                thread::sleep(beat);
+                let Some(held) = held.upgrade() else { return };
+                lock(&held).retain(|file| file.strong_count() > 0);
+                let files: Vec<_> = lock(&held).iter().filter_map(Weak::upgrade).collect();
+                for file in files {
+                    // One that cannot be touched now may be the next time.
+                    let _ = file.set_modified(clock());
                 }
             }
-            Err(error) => return Err(error),
         };
-        match look(|| Ok(is_locked(file.try_lock())?.then_some(())))? {
-            Some(()) => Self::of_file(file, &path),
-            None => Ok(None),
-        }
+        // Without the thread, other machines take long runs over: work is done twice, not lost.
+        let _ = thread::Builder::new().name("leases".into()).spawn(beats);
     }
 
-    /// The lease of a file that has been locked.
-    fn of_file(file: File, path: &Path) -> io::Result<Option<Self>> {
-        let Some(lock) = hold(file, path)? else {
-            return Ok(None);
-        };
-        lock.write(&Holder::this_process())?;
-        Ok(Some(Self(lock)))
-    }
-
-    /// Whether a process is making the run of that record.
-    pub fn is_taken(record: &Path) -> bool {
-        Lock::is_taken(&record.with_extension("lease"))
-    }
-}
-
-impl Holder {
-    fn this_process() -> Self {
-        let since = SystemTime::now().duration_since(UNIX_EPOCH);
-        Self {
-            process: std::process::id(),
+    fn holder(&self) -> Holder {
+        let since = (self.clock)().duration_since(UNIX_EPOCH);
+        Holder {
+            process: self.process.clone(),
             since: since.map_or(0, |it| it.as_secs()),
+            serial: self.taken.fetch_add(1, Ordering::Relaxed),
+        }
+    }
+
+    fn tenure(&self, path: &Path) -> io::Result<Tenure> {
+        let Some(seen) = look(path)? else {
+            self.watched().remove(path);
+            return Ok(Tenure::Free);
+        };
+        let holder = seen.holder.clone();
+        let process = holder.as_ref().map(|it| &it.process);
+        let lives = process.and_then(|it| it.is_alive_for(&self.process));
+        let is_stale = match lives {
+            Some(lives) => !lives,
+            None => self.unchanged_for(path, seen) >= self.patience,
+        };
+        Ok(match is_stale {
+            true => Tenure::Stale(holder),
+            false => Tenure::Held(holder),
+        })
+    }
+
+    /// For how long this process has seen a file without a change.
+    fn unchanged_for(&self, path: &Path, seen: Seen) -> Duration {
+        let mut watched = self.watched();
+        match watched.get(path) {
+            Some(known) if known.seen == seen => known.since.elapsed(),
+            _ => {
+                let since = Instant::now();
+                watched.insert(path.to_owned(), Watched { seen, since });
+                Duration::ZERO
+            }
+        }
+    }
+
+    fn watch(&self, path: &Path, wait: &dyn Fn(&Holder)) -> Tenure {
+        let mut first: Option<Seen> = None;
+        loop {
+            let seen = look(path).ok().flatten();
+            let tenure = self.tenure(path).unwrap_or(Tenure::Held(None));
+            let Tenure::Held(Some(holder)) = &tenure else {
+                // What cannot be read is a moment old, or not of this program.
+                if matches!(tenure, Tenure::Held(None)) && first.is_none() {
+                    thread::sleep(BETWEEN_LOOKS);
+                    first = seen;
+                    continue;
+                }
+                return tenure;
+            };
+            let is_known = holder.process.is_alive_for(&self.process).is_some();
+            let has_moved = first.is_some() && seen.is_some() && seen != first;
+            if is_known || has_moved {
+                return tenure;
+            }
+            if first.is_none() {
+                wait(holder);
+                first = seen;
+            }
+            thread::sleep(BETWEEN_LOOKS.min(self.beat));
+        }
+    }
+
+    fn watched(&self) -> MutexGuard<'_, HashMap<PathBuf, Watched>> {
+        lock(&self.watched)
+    }
+}
+
+/// Locks; a panic elsewhere leaves only whole entries.
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// The file of a lease.
+fn file_of(name: &Path) -> PathBuf {
+    with(name, SUFFIX)
+}
+
+/// The file that breaks the lease of a file in a chain; the first is the file itself.
+fn link(path: &Path, number: usize) -> PathBuf {
+    match number {
+        0 => path.to_owned(),
+        _ => with(path, &format!(".{number}")),
+    }
+}
+
+fn with(path: &Path, end: &str) -> PathBuf {
+    let mut name = OsString::from(path);
+    name.push(end);
+    name.into()
+}
+
+/// Makes a file that is not there. None if it is.
+fn make(path: &Path, holder: &Holder) -> io::Result<Option<File>> {
+    let mut file = match OpenOptions::new().write(true).create_new(true).open(path) {
+        Ok(file) => file,
+        Err(error) if error.kind() == ErrorKind::AlreadyExists => return Ok(None),
+        Err(error) => return Err(error),
+    };
+    let text = serde_json::to_string(holder).map_err(io::Error::other)?;
+    match file.write_all(text.as_bytes()) {
+        Ok(()) => Ok(Some(file)),
+        Err(error) => {
+            let _ = fs::remove_file(path);
+            Err(error)
         }
     }
 }
 
-impl Lock {
-    /// Writes who has a file that is locked.
-    fn write(&self, holder: &Holder) -> io::Result<()> {
-        let mut file: &File = self.file();
-        file.set_len(0)?;
-        let text = serde_json::to_string(holder).map_err(io::Error::other)?;
-        file.write_all(text.as_bytes())
+/// Removes a file, unless it is gone already.
+fn remove(path: &Path) -> io::Result<()> {
+    match fs::remove_file(path) {
+        Err(error) if error.kind() != ErrorKind::NotFound => Err(error),
+        _ => Ok(()),
     }
+}
+
+/// Looks at the file of a lease. None if it is not there. It is opened, for only then do network
+/// file systems ask the server.
+fn look(path: &Path) -> io::Result<Option<Seen>> {
+    let mut file = match File::open(path) {
+        Ok(file) => file,
+        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
+        Err(error) => return Err(error),
+    };
+    let mut text = Vec::new();
+    file.read_to_end(&mut text)?;
+    Ok(Some(Seen {
+        holder: serde_json::from_slice(&text).ok(),
+        changed: file.metadata()?.modified().ok(),
+    }))
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use std::sync::Barrier;
-    use std::thread;
-
-    #[test]
-    fn one_at_a_time_has_a_lease() {
-        let folder = tempfile::tempdir().unwrap();
-        let record = folder.path().join("0123.h5");
-        let path = folder.path().join("0123.lease");
-        let first = Lease::take(&record).unwrap().unwrap();
-        let text = std::fs::read_to_string(&path).unwrap();
-        let holder: Holder = serde_json::from_str(&text).unwrap();
-        assert_eq!(holder.process, std::process::id());
-        assert!(Lease::is_taken(&record));
-        assert!(Lease::take(&record).unwrap().is_none());
-        drop(first);
-        assert!(!path.exists() && !Lease::is_taken(&record));
-        // Left by a process that was killed.
-        std::fs::write(&path, "{\"process\":1,\"since\":0}").unwrap();
-        assert!(!Lease::is_taken(&record));
-        let second = Lease::take(&record).unwrap();
-        assert!(second.is_some() && Lease::is_taken(&record));
-    }
-
-    #[test]
-    fn of_many_that_want_it_at_once_one_has_it() {
-        let folder = tempfile::tempdir().unwrap();
-        for round in 0..20 {
-            let record = folder.path().join(format!("{round}.h5"));
-            if round % 2 == 1 {
-                std::fs::write(record.with_extension("lease"), "left behind").unwrap();
-            }
-            let start = Barrier::new(8);
-            let taken = thread::scope(|scope| {
-                let threads: Vec<_> = (0..8)
-                    .map(|_| {
-                        scope.spawn(|| {
-                            start.wait();
-                            let lease = Lease::take(&record).unwrap();
-                            // Nobody gives it back before all have asked.
-                            start.wait();
-                            lease.is_some()
-                        })
-                    })
-                    .collect();
-                let taken = threads.into_iter().map(|it| it.join().unwrap());
-                taken.filter(|it| *it).count()
-            });
-            assert_eq!(taken, 1, "{round}");
-        }
-    }
-}
+mod tests;

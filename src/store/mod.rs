@@ -12,8 +12,8 @@ mod hashed;
 mod import;
 mod labels;
 mod lease;
-mod lock;
 mod own;
+mod process;
 mod record;
 mod refined;
 mod rows;
@@ -32,10 +32,9 @@ pub use export::{
 };
 pub use import::read_states;
 pub use labels::{read_labels, write_labels, write_points};
-pub use lease::{Holder, Lease};
-pub use lock::Lock;
-pub(crate) use lock::retry;
+pub use lease::{Holder, Lease, Tenure};
 pub use own::is_own_file;
+pub use process::Process;
 pub use record::{
     HDF5_SIGNATURE, RecordHeader, content_digest, motion_digest, read_record, read_record_header,
     write_record, write_record_and_drop_states,

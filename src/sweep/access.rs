@@ -1,37 +1,54 @@
-//! Which process may write to a results folder.
+//! Which processes may write to a results folder, on any machine.
 
 use super::{Folder, FolderError, Sweep};
-use crate::store::{self, Lock, retry};
+use crate::store::{self, Holder, Lease, Process, Tenure};
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
-use std::time::Duration;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
+use std::time::{Duration, Instant};
 
 /// The right to write to a results folder, given back when it is dropped.
 #[derive(Debug)]
-pub enum Access {
-    /// No other process writes to it.
-    Alone(Lock),
-    /// Other processes run the same sweep.
-    Shared(Lock),
+pub struct Access {
+    /// The door, which lets others in one by one: who keeps it is alone.
+    door: Option<Lease>,
+    _presence: Lease,
 }
 
-/// How often a process tries to enter a folder, and the time in between: ten seconds in all.
-const TRIES: usize = 50;
-const BETWEEN_TRIES: Duration = Duration::from_millis(200);
+impl Access {
+    /// Whether no other process writes to the folder.
+    pub fn is_alone(&self) -> bool {
+        self.door.is_some()
+    }
+}
+
+/// How long a process waits at the door of a folder that another one has alone.
+const AT_THE_DOOR: Duration = Duration::from_secs(10);
+const BETWEEN_TRIES: Duration = Duration::from_millis(50);
+
+/// How the name of the lease begins that says that a process is in a folder.
+const PRESENCE: &str = ".at-work-";
 
 /// How processes share a folder: each [enters](Folder::enter) it with its sweep. One that is alone
 /// then may still change what the folder holds, until it [opens](Folder::open) the folder for
 /// others that run the same sweep. What changes labels or runs everything again
 /// [locks](Folder::lock) the folder and keeps all others out.
+///
+/// `wait` is called once if a process on another machine may be dead, which takes up to two minutes
+/// to tell.
 impl Folder {
     /// Takes the right to change the folder, which must exist, while no other process writes to it.
     ///
     /// # Errors
     /// [`FolderError::Locked`] if another process writes to it.
-    pub fn lock(&self) -> Result<Lock, FolderError> {
-        let lock = Lock::take(&self.lock_file()).map_err(self.io_error())?;
-        lock.ok_or_else(|| FolderError::Locked(self.root().to_owned()))
+    pub fn lock(&self, wait: &dyn Fn(&Holder)) -> Result<Access, FolderError> {
+        let door = self.pass_the_door()?;
+        match self.other_for_sure(wait)? {
+            Some(other) => Err(self.locked_by(Some(other))),
+            None => self.come_in(Some(door)),
+        }
     }
 
     /// Takes the right to run a sweep into the folder, which must exist: alone if no other process
@@ -41,37 +58,34 @@ impl Folder {
     /// # Errors
     /// [`FolderError::Locked`] if another process changes the folder, or runs another sweep into
     /// it.
-    pub fn enter(&self, sweep: &Sweep) -> Result<Access, FolderError> {
-        let path = self.lock_file();
-        let access = retry(TRIES, BETWEEN_TRIES, || {
-            Ok(match Lock::take(&path)? {
-                Some(lock) => Some(Access::Alone(lock)),
-                None => Lock::share(&path)?.map(Access::Shared),
-            })
-        });
-        match access.map_err(self.io_error())? {
-            Some(Access::Shared(_)) if self.read_sweep().ok().as_ref() != Some(sweep) => None,
-            access => access,
+    pub fn enter(&self, sweep: &Sweep, wait: &dyn Fn(&Holder)) -> Result<Access, FolderError> {
+        let door = self.pass_the_door()?;
+        if self.at_work()?.is_empty() {
+            return self.come_in(Some(door));
         }
-        .ok_or_else(|| FolderError::Locked(self.root().to_owned()))
+        if self.read_sweep().ok().as_ref() == Some(sweep) {
+            return self.come_in(None);
+        }
+        match self.other_for_sure(wait)? {
+            Some(other) => Err(self.locked_by(Some(other))),
+            None => self.come_in(Some(door)),
+        }
     }
 
     /// Lets other processes run the same sweep into the folder. If no other process is there, what
     /// killed processes left behind is removed before.
     ///
     /// # Errors
-    /// If the sweep cannot be written, or the right is lost.
-    pub fn open(&self, access: Access, sweep: &Sweep) -> Result<Lock, FolderError> {
-        let alone = match access {
-            Access::Shared(lock) => return Ok(lock),
-            Access::Alone(lock) => lock,
-        };
-        self.remove_leftovers()?;
-        self.write_sweep(sweep)?;
-        let shared = alone
-            .into_shared(&self.lock_file())
-            .map_err(self.io_error())?;
-        shared.ok_or_else(|| FolderError::Locked(self.root().to_owned()))
+    /// If the sweep cannot be written.
+    pub fn open(&self, access: Access, sweep: &Sweep) -> Result<Access, FolderError> {
+        if access.is_alone() {
+            self.remove_leftovers()?;
+            self.write_sweep(sweep)?;
+        }
+        Ok(Access {
+            door: None,
+            ..access
+        })
     }
 
     /// Removes the temporary files and leases that killed processes left behind. Only a process
@@ -83,18 +97,33 @@ impl Folder {
         store::remove_leftovers(self.root())?;
         store::remove_leftovers(&self.records())?;
         for entry in fs::read_dir(self.records()).into_iter().flatten().flatten() {
-            let path = entry.path();
-            if path.extension().is_some_and(|it| it == "lease") {
-                // One that cannot be removed is taken over.
-                let _ = fs::remove_file(path);
+            let name = entry.file_name();
+            if name.to_str().and_then(Lease::name_of).is_some() {
+                // One that cannot be removed is broken by who wants it.
+                let _ = fs::remove_file(entry.path());
             }
         }
         Ok(())
     }
 
+    /// The processes that write to the folder now: one on another machine that gives no sign of
+    /// life may be dead. Those that are dead for sure are removed.
+    ///
+    /// # Errors
+    /// If the folder cannot be read.
+    pub fn at_work(&self) -> Result<Vec<Holder>, FolderError> {
+        let mut holders = Vec::new();
+        for name in self.presences()? {
+            if let Tenure::Held(Some(holder)) = self.look_at(&name) {
+                holders.push(holder);
+            }
+        }
+        Ok(holders)
+    }
+
     /// The sweep file that was last run into the folder on this machine, if it is known and there.
     pub fn source(&self) -> Option<PathBuf> {
-        let text = fs::read_to_string(self.lock_file()).ok()?;
+        let text = fs::read_to_string(self.source_file()).ok()?;
         let path = PathBuf::from(text.trim_end());
         path.is_file().then_some(path)
     }
@@ -107,22 +136,91 @@ impl Folder {
     pub fn note_source(&self, file: &Path) -> Result<(), FolderError> {
         let path = file.canonicalize().ok();
         let text = path.as_deref().and_then(Path::to_str).unwrap_or_default();
-        fs::write(self.lock_file(), text).map_err(self.io_error())
+        let note = self.source_file();
+        fs::write(&note, text).map_err(|source| FolderError::Io { path: note, source })
     }
 
-    /// Whether another process writes to the folder.
-    pub fn is_locked(&self) -> bool {
-        Lock::is_taken(&self.lock_file())
+    fn source_file(&self) -> PathBuf {
+        self.root().join(".source")
     }
 
-    fn lock_file(&self) -> PathBuf {
-        self.root().join(".lock")
+    /// Takes the lease that each process needs to come in.
+    fn pass_the_door(&self) -> Result<Lease, FolderError> {
+        let name = self.root().join(".door");
+        let begun = Instant::now();
+        loop {
+            if let Some(door) = Lease::take(&name).map_err(|it| self.io_error(it))? {
+                return Ok(door);
+            }
+            if begun.elapsed() > AT_THE_DOOR {
+                return Err(self.locked_by(match Lease::tenure(&name) {
+                    Tenure::Held(holder) | Tenure::Stale(holder) => holder,
+                    Tenure::Free => None,
+                }));
+            }
+            thread::sleep(BETWEEN_TRIES);
+        }
     }
 
-    fn io_error(&self) -> impl Fn(io::Error) -> FolderError + use<> {
-        let path = self.lock_file();
-        move |source| FolderError::Io {
-            path: path.clone(),
+    /// Says that this process is in the folder.
+    fn come_in(&self, door: Option<Lease>) -> Result<Access, FolderError> {
+        static ENTRANCES: AtomicUsize = AtomicUsize::new(0);
+        let process = Process::this();
+        let entrance = ENTRANCES.fetch_add(1, Ordering::Relaxed);
+        let name = format!("{PRESENCE}{}-{}-{entrance}", process.host, process.number);
+        let presence = Lease::take(&self.root().join(name)).map_err(|it| self.io_error(it))?;
+        match presence {
+            Some(presence) => Ok(Access {
+                door,
+                _presence: presence,
+            }),
+            None => Err(self.locked_by(None)),
+        }
+    }
+
+    /// Another process that is known to live. Watches those that are not.
+    fn other_for_sure(&self, wait: &dyn Fn(&Holder)) -> Result<Option<Holder>, FolderError> {
+        for name in self.presences()? {
+            if let Tenure::Held(Some(holder)) = Lease::watch(&self.root().join(&name), wait) {
+                return Ok(Some(holder));
+            }
+        }
+        Ok(None)
+    }
+
+    /// The names of the leases of processes that said that they are in the folder.
+    fn presences(&self) -> Result<Vec<String>, FolderError> {
+        let entries = fs::read_dir(self.root()).map_err(|it| self.io_error(it))?;
+        let mut names = Vec::new();
+        for entry in entries {
+            let file = entry.map_err(|it| self.io_error(it))?.file_name();
+            let name = file.to_str().and_then(Lease::name_of);
+            names.extend(name.filter(|it| it.starts_with(PRESENCE)).map(str::to_owned));
+        }
+        Ok(names)
+    }
+
+    /// Looks at the lease of a process, and removes it if that process is dead.
+    fn look_at(&self, name: &str) -> Tenure {
+        let name = self.root().join(name);
+        let tenure = Lease::tenure(&name);
+        if matches!(tenure, Tenure::Stale(_)) {
+            // Whoever takes it gives it back.
+            drop(Lease::take(&name));
+        }
+        tenure
+    }
+
+    fn locked_by(&self, holder: Option<Holder>) -> FolderError {
+        FolderError::Locked {
+            path: self.root().to_owned(),
+            holder,
+        }
+    }
+
+    fn io_error(&self, source: io::Error) -> FolderError {
+        FolderError::Io {
+            path: self.root().to_owned(),
             source,
         }
     }

@@ -4,7 +4,7 @@
 
 use super::Failure;
 use crate::grid::Axis;
-use crate::store::{Lock, StoreError, retry, write_atomic};
+use crate::store::{Lease, StoreError, write_atomic};
 use serde::Serialize;
 use std::collections::HashMap;
 use std::fs::{self, OpenOptions};
@@ -58,10 +58,8 @@ impl<'a> FailureTable<'a> {
             return Ok(());
         }
         // One that has been stopped while it tidies is not waited for.
-        let _lock = retry(50, Duration::from_millis(20), || {
-            Lock::take_beside(&self.path)
-        })
-        .map_err(|error| StoreError::writing(&self.path, error))?;
+        let _lease = Lease::take_beside(&self.path, Duration::from_secs(1))
+            .map_err(|error| StoreError::writing(&self.path, error))?;
         let mut text = self.header()?;
         let before = fs::read(&self.path).unwrap_or_default();
         let noted = match before.starts_with(&text) {

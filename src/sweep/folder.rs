@@ -5,7 +5,7 @@ use crate::classify::LabelRow;
 use crate::record::RunRecord;
 use crate::refusal::Refusal;
 use crate::resume::Checkpoints;
-use crate::store::{self, StoreError};
+use crate::store::{self, Holder, StoreError};
 use serde::Serialize;
 use std::collections::HashMap;
 use std::fs;
@@ -73,11 +73,17 @@ pub enum FolderError {
     },
     /// Another process writes to the folder.
     #[error(
-        "{}: another `phase` is at work in this folder; wait until it ends, or choose another \
+        "{}: another `phase` is at work in this folder{}; wait until it ends, or choose another \
          folder with --out",
-        .0.display()
+        path.display(),
+        holder.as_ref().map(|it| format!(", {it}")).unwrap_or_default()
     )]
-    Locked(PathBuf),
+    Locked {
+        /// The folder.
+        path: PathBuf,
+        /// Which process, if it is known.
+        holder: Option<Holder>,
+    },
     /// The file system says no.
     #[error("{}: {source}{}", path.display(), store::advice(source))]
     Io {
@@ -97,7 +103,7 @@ impl Refusal for FolderError {
     fn is_refusal(&self) -> bool {
         matches!(
             self,
-            Self::Missing(_) | Self::NotAFolder(_) | Self::NoSweep(_) | Self::Locked(_)
+            Self::Missing(_) | Self::NotAFolder(_) | Self::NoSweep(_) | Self::Locked { .. }
         )
     }
 }
@@ -208,6 +214,11 @@ impl Folder {
     /// The record of the run with that identity.
     pub fn record(&self, id: &str) -> PathBuf {
         self.records().join(format!("{id}.h5"))
+    }
+
+    /// The name of the lease of the run with that identity.
+    pub(super) fn lease(&self, id: &str) -> PathBuf {
+        self.records().join(id)
     }
 
     /// The checkpoints of the run with that identity, beside its record.

@@ -236,7 +236,8 @@ mod tests {
             folder.create().unwrap();
             let (sweep, jobs) = sweep();
             let record = folder.record(&jobs[1].id);
-            let lease = Mutex::new(Lease::take(&record).unwrap());
+            let lease = folder.lease(&jobs[1].id);
+            let lease = Mutex::new(Lease::take(&lease).unwrap());
             let elsewhere = Mutex::new(Vec::new());
             let watch = |event: Event<'_>| match event {
                 Event::Elsewhere(job) => elsewhere.lock().unwrap().push(job.values[0]),
@@ -266,7 +267,7 @@ mod tests {
                 (usize::from(leaves_record), 0)
             );
             assert_eq!(report.finished, 4 - report.elsewhere);
-            assert!(record.is_file() && !Lease::is_taken(&record));
+            assert!(record.is_file() && !Lease::is_taken(&folder.lease(&jobs[1].id)));
         }
     }
 

@@ -58,7 +58,7 @@ impl Results for Records<'_> {
     }
 
     fn claim(&self, job: &Job) -> Result<Claim<Option<Lease>>, StoreError> {
-        let path = self.folder.record(&job.id);
+        let path = self.folder.lease(&job.id);
         let lease = Lease::take(&path).map_err(|error| StoreError::writing(&path, error))?;
         Ok(match lease {
             None => Claim::Elsewhere,
@@ -69,7 +69,7 @@ impl Results for Records<'_> {
     }
 
     fn is_made_elsewhere(&self, job: &Job) -> bool {
-        Lease::is_taken(&self.folder.record(&job.id))
+        Lease::is_taken(&self.folder.lease(&job.id))
     }
 
     fn keep(&self, job: &Job, record: &RunRecord) -> Result<(), StoreError> {

@@ -100,7 +100,7 @@ impl Status {
             cpu_seconds_left: cpu_seconds_left(plan),
             cpu_seconds_per_job: cpu_seconds_per_job(plan),
             failures,
-            running: folder.is_locked(),
+            running: !folder.at_work()?.is_empty(),
         })
     }
 }

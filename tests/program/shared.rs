@@ -81,7 +81,7 @@ fn a_folder_at_work_is_not_changed() {
         place
             .phase(arguments)
             .code(2)
-            .complains("another `phase` is at work");
+            .complains("another `phase` is at work in this folder, process ");
     }
     place
         .phase(&["status", "shared"])
@@ -182,7 +182,7 @@ fn a_sweep_waits_for_a_process_that_changes_labels() {
     place.write("tiny.toml", &TinySweep::default().text());
     place.phase(&["sweep", "tiny.toml"]).code(0);
     let folder = phase::sweep::Folder::new(place.path("results/tiny"));
-    let classify = folder.lock().unwrap();
+    let classify = folder.lock(&|_| {}).unwrap();
     let mut sweep = place.start(&["sweep", "tiny.toml"]);
     std::thread::sleep(Duration::from_secs(1));
     assert!(sweep.try_wait().unwrap().is_none());

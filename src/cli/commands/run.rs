@@ -16,7 +16,7 @@ use phase::resume::{Checkpoints, DEFAULT_INTERVAL};
 use phase::run::{Edits, frame_of_state, model_of};
 use phase::scene::{Scene, Start};
 use phase::simulation::Instability;
-use phase::store::{self, Lock, StoreError};
+use phase::store::{self, Lease, StoreError};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -196,12 +196,12 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
 }
 
 /// Takes the right to write a record and what goes beside it.
-fn lock(record: &Path) -> Result<Lock, Failure> {
+fn lock(record: &Path) -> Result<Lease, Failure> {
     let file = record.display();
-    let lock = Lock::take_beside(record).map_err(|error| {
+    let lease = Lease::take_beside(record, Duration::ZERO).map_err(|error| {
         Failure::failed(format_args!("{file}: {error}{}", store::advice(&error)))
     })?;
-    lock.ok_or_else(|| {
+    lease.ok_or_else(|| {
         Failure::refused(format_args!(
             "{file}: another `phase run` is writing this record; wait until it ends, or choose \
              another name with --out"

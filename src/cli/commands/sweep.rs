@@ -12,7 +12,7 @@ use crate::cli::{figures, labels};
 use crate::cli::{folders, format, interrupt, overlaps, refined, time_step};
 use phase::classify::Family;
 use phase::resume::DEFAULT_INTERVAL;
-use phase::store;
+use phase::store::{self, Holder};
 use phase::sweep::{Access, Folder, Job, Plan, Sweep, differing_keys, refuse_to_lose_labels};
 use rounds::{Rounds, Run};
 use serde::Serialize;
@@ -80,7 +80,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     let stop = interrupt::stop_on_signal(console)?;
 
     folder.create()?;
-    let access = enter(&folder, &sweep, arguments)?;
+    let access = enter(&folder, &sweep, arguments, console)?;
     refuse_another_file(&folder, &sweep, arguments)?;
     if !arguments.no_classify {
         let again = jobs_made_again(&folder, &sweep);
@@ -93,12 +93,12 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     if !arguments.no_classify {
         labels::warn_of_windows(&sweep, &jobs, console);
     }
-    if matches!(access, Access::Alone(_)) {
+    if access.is_alone() {
         folder.note_source(&arguments.file)?;
     }
-    let _lock = match arguments.force {
+    let _access = match arguments.force {
         true => access,
-        false => Access::Shared(folder.open(access, &sweep)?),
+        false => folder.open(access, &sweep)?,
     };
     let rounds = Rounds {
         folder: &folder,
@@ -202,10 +202,16 @@ fn tell_of_earlier_borders(folder: &Folder, sweep: &Sweep, console: &Console) {
 
 /// Takes the right to run a sweep into a folder, beside other processes that run the same one
 /// unless everything is run again.
-fn enter(folder: &Folder, sweep: &Sweep, arguments: &Arguments) -> Result<Access, Failure> {
+fn enter(
+    folder: &Folder,
+    sweep: &Sweep,
+    arguments: &Arguments,
+    console: &Console,
+) -> Result<Access, Failure> {
+    let wait = |holder: &Holder| folders::tell_of_waiting(folder, holder, console);
     let access = match arguments.force {
-        true => folder.lock().map(Access::Alone),
-        false => folder.enter(sweep),
+        true => folder.lock(&wait),
+        false => folder.enter(sweep, &wait),
     };
     Ok(access?)
 }

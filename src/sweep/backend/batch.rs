@@ -12,9 +12,10 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::Ordering;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
-/// Time between two looks at what other processes are making.
+/// Shortest time between two looks at what other processes are making. Where files are slow, it is
+/// ten times as long as a look.
 const BETWEEN_LOOKS: Duration = Duration::from_millis(100);
 
 /// Jobs that a [`Backend`] is to run, and what has become of them. One that fails does not stop the
@@ -224,6 +225,7 @@ impl<'a> Batch<'a> {
             self.tell(Event::Waiting(elsewhere.len()));
         }
         while !elsewhere.is_empty() && !self.is_over() {
+            let begun = Instant::now();
             let free = elsewhere.iter().copied();
             let free = free.filter(|job| !self.results.is_made_elsewhere(job));
             let free: Vec<&Job> = free.collect();
@@ -237,7 +239,7 @@ impl<'a> Batch<'a> {
                 }
                 return free;
             }
-            thread::sleep(BETWEEN_LOOKS);
+            thread::sleep(BETWEEN_LOOKS.max(10 * begun.elapsed()));
         }
         Vec::new()
     }

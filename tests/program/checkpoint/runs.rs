@@ -228,7 +228,7 @@ fn two_runs_do_not_share_a_record() {
     place.phase(&second).code(0);
     let names = fs::read_dir(place.path(".")).unwrap();
     let mut names = names.map(|entry| entry.unwrap().file_name().into_string().unwrap());
-    assert!(names.all(|name| !name.ends_with(".lock")));
+    assert!(names.all(|name| !name.ends_with(".lease")));
 }
 
 /// Symptom: a run whose record could not be written had come to its end for nothing, or so it said.

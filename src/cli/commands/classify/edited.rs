@@ -6,8 +6,8 @@ use crate::cli::exit::Failure;
 use crate::cli::folders::{self, Entry, Undone};
 use crate::cli::format;
 use crate::cli::labels::{Summary, labelling_of, write};
-use phase::store::{self, Lock};
-use phase::sweep::{Folder, Job, Labelling, Learnt, Sweep};
+use phase::store;
+use phase::sweep::{Access, Folder, Job, Labelling, Learnt, Sweep};
 use std::path::Path;
 
 /// Labels the runs of the results folders found at `dir` with the thresholds of an edited sweep.
@@ -22,7 +22,7 @@ pub(super) fn label(
     let mut edits = Vec::new();
     for folder in &found {
         edits.push(match sweep_with_records(folder) {
-            Ok(sweep) => Ok(edit(folder, sweep, edited)?),
+            Ok(sweep) => Ok(edit(folder, sweep, edited, console)?),
             Err(Undone::Failed(failure)) => return Err(failure),
             Err(kept) => Err(kept),
         });
@@ -49,12 +49,17 @@ pub(super) fn label(
 struct ToLabel {
     sweep: Sweep,
     jobs: Vec<Job>,
-    _lock: Lock,
+    _access: Access,
 }
 
 /// The sweep of a folder with the thresholds of an edited one, which it keeps, so that the labels
 /// are always those that it says. Refuses one that has other runs.
-fn edit(folder: &Folder, sweep: Sweep, edited: &Sweep) -> Result<ToLabel, Failure> {
+fn edit(
+    folder: &Folder,
+    sweep: Sweep,
+    edited: &Sweep,
+    console: &Console,
+) -> Result<ToLabel, Failure> {
     let edited = refined_alike(edited, &sweep);
     let keys = sweep.keys_of_other_runs(&edited);
     if !keys.is_empty() {
@@ -65,12 +70,13 @@ fn edit(folder: &Folder, sweep: Sweep, edited: &Sweep) -> Result<ToLabel, Failur
         ))
         .at(folder.root()));
     }
-    let lock = folder.lock()?;
+    let wait = |holder: &_| folders::tell_of_waiting(folder, holder, console);
+    let access = folder.lock(&wait)?;
     check_files(folder, &sweep)?;
     Ok(ToLabel {
         jobs: jobs_to_label(folder, &edited)?,
         sweep: edited,
-        _lock: lock,
+        _access: access,
     })
 }
 

@@ -8,9 +8,9 @@ use crate::cli::progress::{Progress, Work};
 use crate::cli::{folders, forecast, format, interrupt, job};
 use phase::grid::describe;
 use phase::record::RunRecord;
-use phase::store::{self, Lock};
+use phase::store;
 use phase::study::comparison::{Comparison, KnownRuns, StudyReport, StudyRuns};
-use phase::sweep::{Event, Folder, FolderError, Job, LocalThreads, Wishes};
+use phase::sweep::{Access, Event, Folder, FolderError, Job, LocalThreads, Wishes};
 use serde::Serialize;
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
@@ -46,7 +46,7 @@ pub(super) struct Place {
     pub(super) folder: Folder,
     /// Is set when the command is to end.
     pub(super) stop: &'static AtomicBool,
-    _lock: Lock,
+    _access: Access,
 }
 
 impl Place {
@@ -73,15 +73,16 @@ impl Place {
         let stop = interrupt::stop_on_signal(console)?;
         folders::make(&root)?;
         let folder = Folder::new(&root);
-        let lock = folder.lock().map_err(|error| match error {
-            FolderError::Locked(_) => Failure::refused(error),
+        let wait = |holder: &_| folders::tell_of_waiting(&folder, holder, console);
+        let access = folder.lock(&wait).map_err(|error| match error {
+            FolderError::Locked { .. } => Failure::refused(error),
             _ => Failure::failed(error),
         })?;
         store::remove_leftovers(&root).map_err(Failure::failed)?;
         Ok(Self {
             folder,
             stop,
-            _lock: lock,
+            _access: access,
         })
     }
 
