@@ -1,6 +1,8 @@
 //! Values of options, as the command line gives them.
 
 use phase::scene::LARGEST_SEED;
+use phase::sweep::Shard;
+use std::env;
 use std::time::Duration;
 
 /// More threads than any machine has use for.
@@ -28,6 +30,32 @@ pub(super) fn seed(text: &str) -> Result<u64, String> {
     match text.parse() {
         Ok(seed) if seed <= LARGEST_SEED => Ok(seed),
         _ => Err(format!("must be a whole number from 0 to {LARGEST_SEED}")),
+    }
+}
+
+/// Parses a part of the jobs of a sweep: `I/N`, or `auto` for the task of a Slurm array.
+pub(super) fn part(text: &str) -> Result<Shard, String> {
+    if text != "auto" {
+        return match text.parse() {
+            Ok(part @ Shard::Part { .. }) => Ok(part),
+            _ => Err("give a part and their number, such as 3/64, or auto".to_owned()),
+        };
+    }
+    let number = |name: &str| -> Result<usize, String> {
+        let text = env::var(name).map_err(|_| {
+            format!("auto needs the task of a Slurm array ({name} is not set); give I/N")
+        })?;
+        text.parse()
+            .map_err(|_| format!("{name} is no number: {text}; give I/N"))
+    };
+    let (task, first) = (number("SLURM_ARRAY_TASK_ID")?, number("SLURM_ARRAY_TASK_MIN")?);
+    let of = number("SLURM_ARRAY_TASK_COUNT")?;
+    match task.checked_sub(first).map(|it| it + 1) {
+        Some(number) if number <= of => Ok(Shard::Part { number, of }),
+        _ => Err(format!(
+            "the {of} tasks of this Slurm array are not numbered one by one (task {task}, from \
+             {first}); give I/N"
+        )),
     }
 }
 

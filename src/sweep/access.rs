@@ -121,6 +121,14 @@ impl Folder {
         Ok(holders)
     }
 
+    /// Takes the right to label the runs of the folder. None if another process has it.
+    ///
+    /// # Errors
+    /// If the file of the lease cannot be made.
+    pub fn lease_of_labels(&self) -> Result<Option<Lease>, FolderError> {
+        Lease::take(&self.root().join(".labels")).map_err(|it| self.io_error(it))
+    }
+
     /// The sweep file that was last run into the folder on this machine, if it is known and there.
     pub fn source(&self) -> Option<PathBuf> {
         let text = fs::read_to_string(self.source_file()).ok()?;

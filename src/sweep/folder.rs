@@ -1,13 +1,14 @@
 //! The results folder of a sweep: what lies where in it.
 
-use super::{Refining, Sweep};
+use super::{Job, Refining, Sweep, read_failures};
 use crate::classify::LabelRow;
+use crate::grid::Axis;
 use crate::record::RunRecord;
 use crate::refusal::Refusal;
 use crate::resume::Checkpoints;
 use crate::store::{self, Holder, StoreError};
 use serde::Serialize;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -214,6 +215,43 @@ impl Folder {
     /// The record of the run with that identity.
     pub fn record(&self, id: &str) -> PathBuf {
         self.records().join(format!("{id}.h5"))
+    }
+
+    /// Identities of the runs that have a record, good or not, from one look at the folder.
+    ///
+    /// # Errors
+    /// If there is such a folder, but it cannot be read.
+    pub fn recorded(&self) -> Result<HashSet<String>, FolderError> {
+        let path = self.records();
+        let io_error = |source| FolderError::Io {
+            path: path.clone(),
+            source,
+        };
+        let entries = match fs::read_dir(&path) {
+            Ok(entries) => entries,
+            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(HashSet::new()),
+            Err(error) => return Err(io_error(error)),
+        };
+        let mut ids = HashSet::new();
+        for entry in entries {
+            let name = entry.map_err(io_error)?.file_name();
+            let id = name.to_str().and_then(|name| name.strip_suffix(".h5"));
+            ids.extend(id.map(str::to_owned));
+        }
+        Ok(ids)
+    }
+
+    /// Number of jobs that have neither a record, nor a label that counts without one, nor a
+    /// failure.
+    ///
+    /// # Errors
+    /// If the folder or its table of failures cannot be read.
+    pub(super) fn lacking(&self, jobs: &[&Job], axes: &[Axis]) -> Result<usize, FolderError> {
+        let mut there = self.recorded()?;
+        there.extend(self.kept_labels().into_keys());
+        let failures = read_failures(axes, &self.failures())?;
+        there.extend(failures.into_iter().map(|failure| failure.id));
+        Ok(jobs.iter().filter(|job| !there.contains(&job.id)).count())
     }
 
     /// The name of the lease of the run with that identity.

@@ -9,11 +9,13 @@ mod folder;
 mod job;
 mod labelling;
 mod load;
+mod next;
 mod plan;
 mod pool;
 mod records;
 mod refining;
 mod select;
+mod shard;
 mod status;
 pub mod work;
 
@@ -33,13 +35,15 @@ pub use labelling::{
 };
 pub(crate) use load::{SWEEP, of_document};
 pub use load::{from_str, load};
-pub use plan::{Done, ForeignRecord, Plan, Standing};
+pub use next::Next;
+pub use plan::{Done, ForeignRecord, Plan, PlanError, Standing};
 pub use pool::{Pool, PoolError};
 pub use refining::{
     FAILED, Learnt, Refined, Refinement, RefinementError, Refining, RoundsError, Step, WatchRounds,
     label_name,
 };
 pub use select::{SelectError, Selection, parse_point};
+pub use shard::{ForeignShard, Shard};
 pub use status::{Status, UnderWay};
 
 use crate::classify::Sieves;

@@ -1,9 +1,11 @@
 //! What a results folder already holds of a sweep, and what is left to do.
 
-use super::{Folder, Job, differing_keys, work};
+use super::shard::ForeignShard;
+use super::{Folder, FolderError, Job, Shard, differing_keys, work};
 use crate::record::{Outcome, Program};
 use crate::scene::{LIST_KEY, Output, Scene};
 use crate::store::{self, StoreError};
+use crate::refusal::Refusal;
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
@@ -29,6 +31,28 @@ pub enum Standing {
     Damaged(String),
     /// A record under this job's name that holds another scene.
     Foreign(ForeignRecord),
+    /// The job belongs to another shard: its record was not looked for.
+    OfOtherShard,
+}
+
+/// Why there is no plan.
+#[derive(Debug, thiserror::Error)]
+pub enum PlanError {
+    /// The folder of records cannot be read.
+    #[error(transparent)]
+    Folder(#[from] FolderError),
+    /// The shard is not one of these jobs.
+    #[error(transparent)]
+    Shard(#[from] ForeignShard),
+    /// The system gives no threads.
+    #[error("cannot start the workers: {0}")]
+    Threads(#[from] rayon::ThreadPoolBuildError),
+}
+
+impl Refusal for PlanError {
+    fn is_refusal(&self) -> bool {
+        matches!(self, Self::Shard(_))
+    }
 }
 
 /// A record under a job's name that holds another scene.
@@ -63,21 +87,35 @@ impl Plan {
     /// Looks at the record of every job, with that many workers.
     ///
     /// # Errors
-    /// If the system gives no threads.
-    pub fn new(
+    /// If the folder of records cannot be read, or the system gives no threads.
+    pub fn new(folder: &Folder, jobs: Vec<Job>, workers: usize) -> Result<Self, PlanError> {
+        Self::of_shard(folder, jobs, None, workers)
+    }
+
+    /// The plan of a shard of the jobs, or of all: only its records are looked at.
+    ///
+    /// # Errors
+    /// Those of [`new`](Self::new), or if the shard is not one of these jobs.
+    pub fn of_shard(
         folder: &Folder,
-        mut jobs: Vec<Job>,
+        jobs: Vec<Job>,
+        shard: Option<&Shard>,
         workers: usize,
-    ) -> Result<Self, rayon::ThreadPoolBuildError> {
-        let mut seen = HashSet::new();
-        jobs.retain(|job| seen.insert(job.id.clone()));
+    ) -> Result<Self, PlanError> {
+        let jobs = each_once(jobs);
+        let own = shard.map(|shard| shard.of(&jobs)).transpose()?;
         let kept = folder.kept_labels();
+        let there = folder.recorded()?;
         let standings = work::map(workers, &jobs, |job| {
-            match standing(job, &folder.record(&job.id)) {
-                Standing::Missing if kept.contains_key(&job.id) => Standing::Labelled,
-                standing => standing,
+            let id = job.id.as_str();
+            match own.as_ref().is_none_or(|own| own.contains(id)) {
+                false => Standing::OfOtherShard,
+                true if there.contains(id) => standing(job, &folder.record(id)),
+                true if kept.contains_key(id) => Standing::Labelled,
+                true => Standing::Missing,
             }
         })?;
+        drop(own);
         Ok(Self {
             jobs: jobs.into_iter().zip(standings).collect(),
         })
@@ -85,10 +123,25 @@ impl Plan {
 
     /// The plan of running everything again, whatever the folder holds.
     pub fn afresh(jobs: Vec<Job>) -> Self {
-        let mut seen = HashSet::new();
-        let jobs = jobs.into_iter().filter(|job| seen.insert(job.id.clone()));
+        let jobs = each_once(jobs).into_iter();
         Self {
             jobs: jobs.map(|job| (job, Standing::Missing)).collect(),
+        }
+    }
+
+    /// Number of jobs of the plan's shard.
+    pub fn own(&self) -> usize {
+        let is_own = |it: &&(Job, Standing)| it.1 != Standing::OfOtherShard;
+        self.jobs.iter().filter(is_own).count()
+    }
+
+    /// Leaves what is pending to other shards, but for jobs with these identities.
+    pub(super) fn leave_to_others(&mut self, own: &HashSet<&str>) {
+        for (job, standing) in &mut self.jobs {
+            let is_pending = !matches!(standing, Standing::Done(_) | Standing::Labelled);
+            if is_pending && !own.contains(job.id.as_str()) {
+                *standing = Standing::OfOtherShard;
+            }
         }
     }
 
@@ -126,13 +179,24 @@ impl Plan {
 
     /// The jobs that are to be run.
     pub fn pending(&self) -> impl Iterator<Item = &Job> {
-        let pending =
-            |standing: &Standing| !matches!(standing, Standing::Done(_) | Standing::Labelled);
+        let pending = |standing: &Standing| {
+            !matches!(
+                standing,
+                Standing::Done(_) | Standing::Labelled | Standing::OfOtherShard
+            )
+        };
         self.jobs
             .iter()
             .filter(move |(_, standing)| pending(standing))
             .map(|(job, _)| job)
     }
+}
+
+/// The jobs, none twice.
+fn each_once(mut jobs: Vec<Job>) -> Vec<Job> {
+    let mut seen = HashSet::new();
+    jobs.retain(|job| seen.insert(job.id.clone()));
+    jobs
 }
 
 pub(super) fn standing(job: &Job, path: &Path) -> Standing {

@@ -1,9 +1,9 @@
 //! Runs the jobs of a sweep.
 
 use super::backend::{Backend, Batch, Report, Results, Wishes};
-use super::plan::{ForeignRecord, Plan};
+use super::plan::{ForeignRecord, Plan, Standing};
 use super::records::Records;
-use super::{Folder, FolderError, Sweep, work};
+use super::{Folder, FolderError, Job, PlanError, Shard, Sweep, work};
 use crate::refusal::Refusal;
 use crate::resume::DEFAULT_INTERVAL;
 use std::time::Duration;
@@ -17,6 +17,8 @@ pub struct Pool<'a> {
     pub sweep: &'a Sweep,
     /// Who runs the jobs.
     pub backend: &'a dyn Backend,
+    /// Which of its jobs are run, if not all. Of a refined sweep one round is run.
+    pub shard: Option<&'a Shard>,
     /// Number of threads that read and label records.
     pub workers: usize,
     /// Time between two checkpoints of a run.
@@ -49,10 +51,19 @@ impl<'a> Pool<'a> {
             folder,
             sweep,
             backend,
+            shard: None,
             workers: work::default_workers(),
             checkpoint_interval: DEFAULT_INTERVAL,
             wishes: Wishes::default(),
         }
+    }
+
+    /// The plan of jobs of the sweep: of all of them, or of the pool's shard.
+    ///
+    /// # Errors
+    /// Those of [`Plan::of_shard`].
+    pub fn plan(&self, jobs: Vec<Job>) -> Result<Plan, PlanError> {
+        Plan::of_shard(self.folder, jobs, self.shard, self.workers)
     }
 
     /// Runs what is pending in the plan, and stores each record as soon as it is there. A job that
@@ -73,7 +84,24 @@ impl<'a> Pool<'a> {
             // removed does no harm: the job is done.
             let _ = records.checkpoints(job).remove();
         }
-        Ok(Batch::new(plan.pending(), &records, self.wishes).run_on(self.backend))
+        let report = Batch::new(plan.pending(), &records, self.wishes).run_on(self.backend);
+        Ok(Report {
+            others: self.left_to_others(plan)?,
+            ..report
+        })
+    }
+}
+
+impl Pool<'_> {
+    /// Number of jobs of other shards that have no result yet.
+    fn left_to_others(&self, plan: &Plan) -> Result<usize, FolderError> {
+        let others = plan.jobs.iter();
+        let others = others.filter(|it| it.1 == Standing::OfOtherShard);
+        let others: Vec<&Job> = others.map(|(job, _)| job).collect();
+        match others.is_empty() {
+            true => Ok(0),
+            false => self.folder.lacking(&others, &self.sweep.axes),
+        }
     }
 }
 
@@ -87,7 +115,7 @@ mod tests {
     use crate::store::{self, Lease};
     use crate::sweep::failures::FailureTable;
     use crate::sweep::{BackendError, Begin, Event, LocalThreads, Status};
-    use crate::sweep::{Claim, Failure, Job, read_failures};
+    use crate::sweep::{Claim, Failure, read_failures};
     use std::ops::ControlFlow;
     use std::sync::Mutex;
     use std::sync::atomic::{AtomicBool, Ordering};

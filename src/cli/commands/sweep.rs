@@ -12,8 +12,10 @@ use crate::cli::{figures, labels};
 use crate::cli::{folders, format, interrupt, overlaps, refined, time_step};
 use phase::classify::Family;
 use phase::resume::DEFAULT_INTERVAL;
-use phase::store::{self, Holder};
-use phase::sweep::{Access, Folder, Job, Plan, Sweep, differing_keys, refuse_to_lose_labels};
+use phase::store::{self, Holder, Lease};
+use phase::sweep::{
+    Access, Folder, Job, Plan, Shard, Sweep, differing_keys, refuse_to_lose_labels,
+};
 use rounds::{Rounds, Run};
 use serde::Serialize;
 use std::collections::HashSet;
@@ -52,6 +54,15 @@ pub(crate) struct Arguments {
     /// the file has the settings; without it at most a tenth of the grid's jobs is run.
     #[arg(long)]
     refine: bool,
+    /// Run one of N parts of equal work, in any number of processes on any machines: I/N, or `auto`
+    /// for the task of a Slurm array. The last one labels the runs and draws the figures. Of a
+    /// refined sweep it is a part of the next round.
+    #[arg(long, value_name = "I/N", value_parser = values::part)]
+    #[arg(conflicts_with_all = ["job", "force", "keep_labels"])]
+    shard: Option<Shard>,
+    /// Run the jobs of a line that `phase jobs` printed.
+    #[arg(long, value_name = "LINE", conflicts_with_all = ["force", "keep_labels"])]
+    job: Option<Shard>,
     /// Time between two checkpoints of a run (s), from which it continues when the sweep is run
     /// again [default: 120].
     #[arg(long, value_name = "SECONDS", value_parser = values::seconds)]
@@ -107,6 +118,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         checkpoint_interval: arguments.checkpoint_interval.unwrap_or(DEFAULT_INTERVAL),
         force: arguments.force,
         draws: !arguments.no_plot,
+        shard: arguments.shard.as_ref().or(arguments.job.as_ref()),
         console,
     };
     let (plan, run, refinement) = match sweep.refine {
@@ -139,7 +151,11 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         return Err(Failure::failed(error));
     }
     let mut failed = !run.report.failures.is_empty();
-    if !arguments.no_classify {
+    if run.is_left_to_others(console) {
+        console.answer_with_files(&answer);
+        return Ok(if failed { Exit::Failed } else { Exit::Done });
+    }
+    if !arguments.no_classify && let Some(_lease) = lease_of_labels(&folder, console)? {
         let labelled = labels::label_folder(&folder, &sweep, &jobs, workers, console);
         let labelled = labelled.inspect_err(|_| console.answer_with_files(&answer))?;
         failed |= !labelled.problems.is_empty();
@@ -214,6 +230,15 @@ fn enter(
         false => folder.enter(sweep, &wait),
     };
     Ok(access?)
+}
+
+/// Takes the right to label the runs of a folder. None if another process labels them.
+fn lease_of_labels(folder: &Folder, console: &Console) -> Result<Option<Lease>, Failure> {
+    let lease = folder.lease_of_labels()?;
+    if lease.is_none() {
+        console.note("another process labels the runs and draws the figures");
+    }
+    Ok(lease)
 }
 
 /// Refuses to keep labels that cannot be read, or that other thresholds gave.
@@ -341,6 +366,9 @@ struct Answer {
     run_now: usize,
     resumed: usize,
     left: usize,
+    /// Jobs of other shards without a result, and runs of the next round of a refined sweep.
+    left_to_others: usize,
+    next_round: usize,
     unstable: Vec<NamedJob>,
     failed: Vec<NamedJob>,
     interrupted: bool,
@@ -359,11 +387,13 @@ impl Answer {
     fn new(folder: &Folder, plan: &Plan, sweep: &Sweep, run: &Run) -> Self {
         Self {
             folder: folder.root().to_owned(),
-            jobs: plan.jobs.len(),
+            jobs: plan.own(),
             done_before: run.done_before,
             run_now: run.report.finished,
             resumed: run.report.resumed,
             left: run.report.left,
+            left_to_others: run.report.others,
+            next_round: run.next,
             unstable: NamedJob::all(&sweep.axes, &run.unstable),
             failed: NamedJob::all(&sweep.axes, &run.report.failures),
             interrupted: false,

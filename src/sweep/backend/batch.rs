@@ -263,6 +263,7 @@ impl<'a> Batch<'a> {
             elsewhere: tally.elsewhere,
             left: self.all.len() - tally.finished - failures.len() - tally.elsewhere,
             failures,
+            others: 0,
             work: tally.work,
             cpu_seconds: tally.cpu_seconds,
             halted: tally.halted,

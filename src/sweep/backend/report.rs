@@ -17,6 +17,8 @@ pub struct Report {
     pub elsewhere: usize,
     /// Jobs left to do: not finished, not failed, not made elsewhere.
     pub left: usize,
+    /// Jobs of other shards that have no result yet.
+    pub others: usize,
     /// Work of the finished runs, in the unit of their model.
     pub work: u64,
     /// Processor time of the finished runs (s).

@@ -8,7 +8,7 @@ use crate::refine::{
     Finish, Gap, Observations, RefineError, Round, Rounds, Settings, Trial, widths,
 };
 use crate::refusal::Refusal;
-use crate::sweep::{Folder, Job, Labelling, Plan, Sweep};
+use crate::sweep::{Folder, Job, Labelling, Plan, PlanError, Sweep};
 use std::collections::HashSet;
 
 /// The rounds of a refined sweep.
@@ -24,6 +24,8 @@ pub struct Refinement {
     rounds: Rounds,
     /// Number of rounds so far.
     count: usize,
+    /// The runs of the latest round.
+    latest: Vec<Trial>,
 }
 
 /// Runs of a folder that have labels.
@@ -53,6 +55,9 @@ pub enum RefinementError {
     /// A point cannot be run.
     #[error(transparent)]
     Point(#[from] PointError),
+    /// The runs of the folder cannot be planned.
+    #[error(transparent)]
+    Plan(#[from] PlanError),
     /// The system gives no threads.
     #[error("cannot start the workers: {0}")]
     Threads(#[from] rayon::ThreadPoolBuildError),
@@ -63,7 +68,11 @@ pub enum RefinementError {
 
 impl Refusal for RefinementError {
     fn is_refusal(&self) -> bool {
-        !matches!(self, Self::Threads(_))
+        match self {
+            Self::Refine(_) | Self::Point(_) | Self::NotRefined => true,
+            Self::Plan(error) => error.is_refusal(),
+            Self::Threads(_) => false,
+        }
     }
 }
 
@@ -111,6 +120,7 @@ impl Refinement {
             known,
             rounds,
             count: 0,
+            latest: Vec::new(),
         })
     }
 
@@ -129,6 +139,7 @@ impl Refinement {
             }
         };
         self.count += 1;
+        self.latest.clone_from(&round);
         let mut open = Vec::new();
         for run in round {
             match self.known.runs.label(&run) {
@@ -141,6 +152,14 @@ impl Refinement {
             return Ok(Step::Known);
         }
         Ok(Step::Run(sweep.jobs_of_runs(&open)?))
+    }
+
+    /// All jobs of the latest round, in an order that does not depend on which are known.
+    ///
+    /// # Errors
+    /// If a point cannot be run.
+    pub fn round(&self, sweep: &Sweep) -> Result<Vec<Job>, PointError> {
+        sweep.jobs_of_runs(&self.latest)
     }
 
     /// Learns from jobs that have run, all of a step: those without a record have failed.

@@ -4,7 +4,7 @@ use super::{Refinement, RefinementError, Refining, Step};
 use crate::refine::Finish;
 use crate::refusal::Refusal;
 use crate::store::StoreError;
-use crate::sweep::{FolderError, Job, Plan, Pool, PoolError, Report, Standing};
+use crate::sweep::{FolderError, Job, Plan, PlanError, Pool, PoolError, Report, Standing};
 use std::collections::HashSet;
 use std::sync::atomic::Ordering;
 
@@ -50,6 +50,9 @@ pub enum RoundsError {
     /// The sweep cannot be refined.
     #[error(transparent)]
     Refinement(#[from] RefinementError),
+    /// A round cannot be planned.
+    #[error(transparent)]
+    Plan(#[from] PlanError),
     /// A round cannot be run.
     #[error(transparent)]
     Pool(#[from] PoolError),
@@ -65,6 +68,7 @@ impl Refusal for RoundsError {
     fn is_refusal(&self) -> bool {
         match self {
             Self::Refinement(error) => error.is_refusal(),
+            Self::Plan(error) => error.is_refusal(),
             Self::Pool(error) => error.is_refusal(),
             Self::Folder(_) | Self::Store(_) => false,
         }
@@ -79,8 +83,10 @@ pub struct Refined {
     pub report: Report,
     /// How far refining is.
     pub refinement: Refinement,
-    /// Why no more runs are made; none if it was stopped.
+    /// Why no more runs are made; none if it was stopped, or is left to other shards.
     pub end: Option<Finish>,
+    /// Number of runs of the next round, which a pool with a shard leaves to a later call.
+    pub next: usize,
 }
 
 impl Pool<'_> {
@@ -95,6 +101,7 @@ impl Pool<'_> {
         let refinement = Refinement::new(folder, sweep, is_afresh, self.workers);
         let mut refinement = refinement.map_err(RoundsError::from)?;
         let mut report: Option<Report> = None;
+        let mut next = 0;
         let end = loop {
             let jobs = match refinement.next_step(sweep).map_err(RoundsError::from)? {
                 Step::Finished(end) => break Some(end),
@@ -103,12 +110,16 @@ impl Pool<'_> {
                     watcher.known(&refinement);
                     continue;
                 }
+                Step::Run(jobs) if self.shard.is_some() && report.is_some() => {
+                    next = jobs.len();
+                    break None;
+                }
                 Step::Run(jobs) => jobs,
             };
             self.keep_progress(&refinement)?;
-            let plan = self.plan_of_round(refinement.refining(), &jobs)?;
+            let plan = self.plan_of_round(&refinement, &jobs)?;
             let round = watcher.run(self, &plan, &refinement)?;
-            let is_whole = round.left == 0 && round.halted.is_none();
+            let is_whole = round.left + round.others == 0 && round.halted.is_none();
             report = Some(match report {
                 Some(before) => before.and(round),
                 None => round,
@@ -119,11 +130,12 @@ impl Pool<'_> {
             self.learn(&mut refinement, &jobs)?;
             watcher.learnt(self, &refinement)?;
         };
-        if end.is_some() {
+        if end.is_some() || next > 0 {
             self.keep_progress(&refinement)?;
         }
         let refining = match end {
             Some(_) => Some(refinement.refining().clone()),
+            None if next > 0 => Some(refinement.refining().clone()),
             // Stopped before anything was run, the folder stays as it was.
             None => folder.read_refining(sweep).map_err(RoundsError::from)?,
         };
@@ -137,6 +149,7 @@ impl Pool<'_> {
             report,
             refinement,
             end,
+            next,
         })
     }
 
@@ -147,12 +160,13 @@ impl Pool<'_> {
     fn plan_of(&self, refining: Option<&Refining>) -> Result<Plan, RoundsError> {
         let jobs = self.sweep.jobs_so_far(refining);
         let jobs = jobs.map_err(RefinementError::from)?;
-        let plan = Plan::new(self.folder, jobs, self.workers);
-        Ok(plan.map_err(RefinementError::from)?)
+        Ok(Plan::new(self.folder, jobs, self.workers)?)
     }
 
-    /// The plan of all jobs that have not failed, of which only those of the round are pending.
-    fn plan_of_round(&self, refining: &Refining, round: &[Job]) -> Result<Plan, RoundsError> {
+    /// The plan of all jobs that have not failed, of which only those of the round are pending, and
+    /// of the pool's shard, if it has one.
+    fn plan_of_round(&self, refinement: &Refinement, open: &[Job]) -> Result<Plan, RoundsError> {
+        let refining = refinement.refining();
         let mut plan = self.plan_of(Some(refining))?;
         let point = |values: &[f64], seed| -> (Vec<u64>, u64) {
             (values.iter().map(|value| value.to_bits()).collect(), seed)
@@ -162,11 +176,15 @@ impl Pool<'_> {
         plan.jobs
             .retain(|(job, _)| !failed.contains(&point(&job.values, job.seed)));
         if !self.wishes.resume {
-            let round: HashSet<&str> = round.iter().map(|job| job.id.as_str()).collect();
+            let open: HashSet<&str> = open.iter().map(|job| job.id.as_str()).collect();
             let again = plan.jobs.iter_mut();
             again
-                .filter(|(job, _)| round.contains(job.id.as_str()))
+                .filter(|(job, _)| open.contains(job.id.as_str()))
                 .for_each(|(_, standing)| *standing = Standing::Missing);
+        }
+        if let Some(shard) = self.shard {
+            let round = refinement.round(self.sweep).map_err(RefinementError::from)?;
+            plan.leave_to_others(&shard.of(&round).map_err(PlanError::from)?);
         }
         Ok(plan)
     }

@@ -26,6 +26,7 @@ impl Rounds<'_> {
         let run = Run {
             done_before: done_before.saturating_sub(report.finished + report.elsewhere),
             report,
+            next: done.next,
             ..watcher.run.unwrap_or_default()
         };
         Ok((done.plan, run, done.refinement))

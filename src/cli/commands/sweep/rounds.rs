@@ -8,8 +8,8 @@ use phase::grid::describe;
 use phase::record::{Outcome, RunRecord};
 use phase::run::model_of;
 use phase::sweep::{
-    Event, Failure as JobFailure, Folder, Job, LocalThreads, Plan, Pool, Report, Standing, Sweep,
-    Wishes,
+    Event, Failure as JobFailure, Folder, Job, LocalThreads, Plan, Pool, Report, Shard, Standing,
+    Sweep, Wishes,
 };
 use std::collections::HashMap;
 use std::sync::Mutex;
@@ -25,25 +25,29 @@ pub(super) struct Rounds<'a> {
     pub(super) force: bool,
     /// Whether figures are drawn.
     pub(super) draws: bool,
+    /// Which jobs are run, if not all.
+    pub(super) shard: Option<&'a Shard>,
     pub(super) console: &'a Console,
 }
 
 impl Rounds<'_> {
     /// Runs all points of the grid. Gives the plan, and what was run.
     pub(super) fn run(&self, sweep: &Sweep, jobs: Vec<Job>) -> Result<(Plan, Run), Failure> {
-        let plan = if self.force {
-            Plan::afresh(jobs)
-        } else {
-            Plan::new(self.folder, jobs, self.workers)?
-        };
-        tell_of_plan(&plan, self.console);
-        let run = self.with_pool(sweep, |pool| self.run_part(&plan, pool, Part::default()))?;
-        Ok((plan, run))
+        self.with_pool(sweep, |pool| {
+            let plan = match self.force {
+                true => Plan::afresh(jobs),
+                false => pool.plan(jobs)?,
+            };
+            tell_of_plan(&plan, self.console);
+            let run = self.run_part(&plan, pool, Part::default())?;
+            Ok((plan, run))
+        })
     }
 
     /// Calls `act` with the pool that runs the jobs of a sweep.
     pub(super) fn with_pool<T>(&self, sweep: &Sweep, act: impl FnOnce(&Pool<'_>) -> T) -> T {
         act(&Pool {
+            shard: self.shard,
             workers: self.workers,
             checkpoint_interval: self.checkpoint_interval,
             wishes: Wishes {
@@ -85,6 +89,8 @@ pub(super) struct Run {
     pub(super) workers: usize,
     /// Runs that a guard ended, and which.
     pub(super) unstable: Vec<JobFailure>,
+    /// Number of runs of the next round, which a shard of a refined sweep leaves to later tasks.
+    pub(super) next: usize,
 }
 
 /// Runs what is to be run of a plan and watches it.
@@ -97,17 +103,18 @@ fn run(
 ) -> Result<Run, Failure> {
     let sweep = pool.sweep;
     let steps = Job::work;
-    let planned: u64 = plan.jobs.iter().map(|(job, _)| steps(job)).sum();
-    let jobs = part.jobs.unwrap_or(plan.jobs.len());
+    let done: u64 = plan.labelled().map(steps).sum();
+    let planned = done + plan.pending().map(steps).sum::<u64>();
+    let jobs = part.jobs.unwrap_or(plan.own());
     // Jobs that are not planned yet take as much work as the others do on average.
-    let scale = jobs as f64 / plan.jobs.len().max(1) as f64;
+    let scale = jobs as f64 / plan.own().max(1) as f64;
     let progress = Progress::new(
         console,
         Work {
             jobs,
             jobs_done: plan.labelled().count(),
             steps: (planned as f64 * scale) as u64,
-            steps_done: plan.labelled().map(steps).sum(),
+            steps_done: done,
             unit: model_of(&sweep.scene).work_unit(),
             head: part.head,
         },
@@ -150,10 +157,28 @@ fn run(
         seconds,
         workers,
         unstable,
+        next: 0,
     })
 }
 
 impl Run {
+    /// Says what is left to other shards, if anything is.
+    pub(super) fn is_left_to_others(&self, console: &Console) -> bool {
+        if self.report.others > 0 {
+            console.result(format_args!(
+                "{} left to other shards: the last one labels the runs and draws the figures",
+                format::count(self.report.others, "job")
+            ));
+        }
+        if self.next > 0 {
+            console.result(format_args!(
+                "the next round has {}: run the shards again",
+                format::count(self.next, "job")
+            ));
+        }
+        self.report.others + self.next > 0
+    }
+
     /// Prints what was done and names what went wrong.
     pub(super) fn print(
         &self,
@@ -172,7 +197,7 @@ impl Run {
         } = &self.report;
         let mut text = format!(
             "{}: {finished} run now in {} with {}",
-            format::count(plan.jobs.len(), "job"),
+            format::count(plan.own(), "job"),
             format::duration(self.seconds),
             format::count(self.workers, "worker"),
         );
@@ -226,7 +251,7 @@ pub(super) fn tell_of_plan(plan: &Plan, console: &Console) {
     if done > 0 {
         console.note(format_args!(
             "{done} of {} are done already",
-            format::count(plan.jobs.len(), "job")
+            format::count(plan.own(), "job")
         ));
     }
     let makers = plan.done().map(|(_, done)| Some(&done.program));
@@ -241,7 +266,11 @@ pub(super) fn tell_of_plan(plan: &Plan, console: &Console) {
                 "running job {} again: its record was made with other output settings",
                 job.id
             )),
-            Standing::Missing | Standing::Done(_) | Standing::Labelled | Standing::Foreign(_) => {}
+            Standing::Missing
+            | Standing::Done(_)
+            | Standing::Labelled
+            | Standing::Foreign(_)
+            | Standing::OfOtherShard => {}
         }
     }
 }
