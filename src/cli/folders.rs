@@ -12,6 +12,11 @@ use std::path::{Path, PathBuf};
 /// The remedy if a file of another program is in the way.
 pub(super) const ANOTHER_FOLDER: &str = "choose another folder with --out";
 
+/// The results folder of a sweep file: `results/NAME`.
+pub(super) fn default_folder(file: &Path) -> PathBuf {
+    Path::new("results").join(file.file_stem().unwrap_or("sweep".as_ref()))
+}
+
 /// What became of a results folder, as `--json` prints it.
 #[derive(Serialize)]
 #[serde(tag = "outcome", rename_all = "kebab-case")]

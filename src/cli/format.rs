@@ -72,7 +72,11 @@ pub(crate) fn percent(part: usize, whole: usize) -> String {
 
 /// A number of things: `1 job`, `2 jobs`.
 pub(crate) fn count(number: usize, thing: &str) -> String {
-    let plural = if number == 1 { "" } else { "s" };
+    let plural = match number {
+        1 => "",
+        _ if thing.ends_with('s') => "es",
+        _ => "s",
+    };
     format!("{number} {thing}{plural}")
 }
 

@@ -1,6 +1,7 @@
 //! The command line: what commands share, and `commands`, one file each.
 
 mod builds;
+mod cluster;
 mod columns;
 mod commands;
 mod console;

@@ -17,6 +17,22 @@ pub(super) fn seconds(text: &str) -> Result<Duration, String> {
     }
 }
 
+/// Parses a time in seconds, minutes (m), hours (h) or days (d), such as 90, 90s or 1.5h.
+pub(super) fn time(text: &str) -> Result<Duration, String> {
+    let units = [("s", 1.0), ("m", 60.0), ("h", 3600.0), ("d", 86_400.0)];
+    let unit = units.iter().find_map(|(name, unit)| {
+        let number = text.strip_suffix(name)?;
+        Some((number, *unit))
+    });
+    let (number, unit) = unit.unwrap_or((text, 1.0));
+    let seconds = number.trim().parse().ok().filter(|it: &f64| *it > 0.0);
+    let time = seconds.map(|seconds| Duration::try_from_secs_f64(seconds * unit));
+    match time {
+        Some(Ok(time)) => Ok(time),
+        _ => Err("give a time above 0, such as 90s, 20m, 1.5h or 2d".to_owned()),
+    }
+}
+
 /// Parses a number of workers.
 pub(super) fn at_least_one(text: &str) -> Result<usize, String> {
     match text.parse() {
@@ -48,7 +64,10 @@ pub(super) fn part(text: &str) -> Result<Shard, String> {
         text.parse()
             .map_err(|_| format!("{name} is no number: {text}; give I/N"))
     };
-    let (task, first) = (number("SLURM_ARRAY_TASK_ID")?, number("SLURM_ARRAY_TASK_MIN")?);
+    let (task, first) = (
+        number("SLURM_ARRAY_TASK_ID")?,
+        number("SLURM_ARRAY_TASK_MIN")?,
+    );
     let of = number("SLURM_ARRAY_TASK_COUNT")?;
     match task.checked_sub(first).map(|it| it + 1) {
         Some(number) if number <= of => Ok(Shard::Part { number, of }),

@@ -55,7 +55,11 @@ pub struct Holder {
 
 impl std::fmt::Display for Holder {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "process {} on {}", self.process.number, self.process.host)?;
+        write!(
+            f,
+            "process {} on {}",
+            self.process.number, self.process.host
+        )?;
         match &self.process.task {
             Some(task) => write!(f, " ({task})"),
             None => Ok(()),
@@ -141,7 +145,8 @@ impl Lease {
 impl Drop for Lease {
     fn drop(&mut self) {
         // A holder that was taken to be dead has lost the lease to another process.
-        let is_ours = matches!(look(&self.path), Ok(Some(it)) if it.holder.as_ref() == Some(&self.holder));
+        let is_ours =
+            matches!(look(&self.path), Ok(Some(it)) if it.holder.as_ref() == Some(&self.holder));
         if is_ours {
             // If it cannot be removed, it is broken by who wants it next.
             let _ = fs::remove_file(&self.path);

@@ -203,7 +203,10 @@ impl Folder {
         for entry in entries {
             let file = entry.map_err(|it| self.io_error(it))?.file_name();
             let name = file.to_str().and_then(Lease::name_of);
-            names.extend(name.filter(|it| it.starts_with(PRESENCE)).map(str::to_owned));
+            names.extend(
+                name.filter(|it| it.starts_with(PRESENCE))
+                    .map(str::to_owned),
+            );
         }
         Ok(names)
     }

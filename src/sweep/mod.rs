@@ -9,6 +9,7 @@ mod folder;
 mod job;
 mod labelling;
 mod load;
+mod merge;
 mod next;
 mod plan;
 mod pool;
@@ -35,6 +36,7 @@ pub use labelling::{
 };
 pub(crate) use load::{SWEEP, of_document};
 pub use load::{from_str, load};
+pub use merge::Taken;
 pub use next::Next;
 pub use plan::{Done, ForeignRecord, Plan, PlanError, Standing};
 pub use pool::{Pool, PoolError};
@@ -44,7 +46,7 @@ pub use refining::{
 };
 pub use select::{SelectError, Selection, parse_point};
 pub use shard::{ForeignShard, Shard};
-pub use status::{Status, UnderWay};
+pub use status::{Claimed, Status, UnderWay};
 
 use crate::classify::Sieves;
 use crate::grid::Axis;

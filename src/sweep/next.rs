@@ -1,8 +1,6 @@
 //! What is to be run next of a sweep, for programs that hand jobs out.
 
-use super::{
-    Folder, Job, Plan, Refinement, RefinementError, RoundsError, Shard, Step, Sweep,
-};
+use super::{Folder, Job, Plan, Refinement, RefinementError, RoundsError, Shard, Step, Sweep};
 use std::collections::HashSet;
 use std::time::Duration;
 

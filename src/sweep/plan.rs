@@ -3,9 +3,9 @@
 use super::shard::ForeignShard;
 use super::{Folder, FolderError, Job, Shard, differing_keys, work};
 use crate::record::{Outcome, Program};
+use crate::refusal::Refusal;
 use crate::scene::{LIST_KEY, Output, Scene};
 use crate::store::{self, StoreError};
-use crate::refusal::Refusal;
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 

@@ -55,6 +55,12 @@ impl Shard {
         }
     }
 
+    /// The part that each job belongs to, of so many, from 1.
+    pub fn parts(jobs: &[Job], of: usize) -> Vec<usize> {
+        let work: Vec<u64> = jobs.iter().map(Job::work).collect();
+        deal(&work, of).into_iter().map(|part| part + 1).collect()
+    }
+
     /// Identities of the shard's jobs: a function of the jobs alone. Parts are dealt from the
     /// longest job to the shortest, each to the part that has least work yet.
     ///
@@ -63,9 +69,8 @@ impl Shard {
     pub fn of<'a>(&self, jobs: &'a [Job]) -> Result<HashSet<&'a str>, ForeignShard> {
         match self {
             Self::Part { number, of } => {
-                let work: Vec<u64> = jobs.iter().map(Job::work).collect();
-                let dealt = deal(&work, *of).into_iter().zip(jobs);
-                let own = dealt.filter(|(part, _)| part + 1 == *number);
+                let dealt = Self::parts(jobs, *of).into_iter().zip(jobs);
+                let own = dealt.filter(|(part, _)| part == number);
                 Ok(own.map(|(_, job)| job.id.as_str()).collect())
             }
             Self::Listed { digest: of, places } => {
@@ -82,8 +87,9 @@ impl Shard {
 fn deal(work: &[u64], parts: usize) -> Vec<usize> {
     let mut order: Vec<usize> = (0..work.len()).collect();
     order.sort_by_key(|&place| Reverse(work[place]));
-    let mut loads: BinaryHeap<Reverse<(u64, usize)>> =
-        (0..parts.min(work.len())).map(|part| Reverse((0, part))).collect();
+    let mut loads: BinaryHeap<Reverse<(u64, usize)>> = (0..parts.min(work.len()))
+        .map(|part| Reverse((0, part)))
+        .collect();
     let mut dealt = vec![0; work.len()];
     for place in order {
         if let Some(mut least) = loads.peek_mut() {
@@ -142,7 +148,9 @@ impl FromStr for Shard {
 fn parse_part(text: &str) -> Option<Shard> {
     let (number, of) = text.split_once('/')?;
     let (number, of) = (number.parse().ok()?, of.parse().ok()?);
-    (1..=of).contains(&number).then_some(Shard::Part { number, of })
+    (1..=of)
+        .contains(&number)
+        .then_some(Shard::Part { number, of })
 }
 
 fn parse_places(digest: &str, places: &str) -> Option<Shard> {
@@ -223,12 +231,25 @@ mod tests {
         let shard = Shard::of_places(&jobs(5), &[0, 1, 4]);
         assert!(shard.to_string().ends_with(":0-1,4"));
         let error = shard.of(&jobs(6)).unwrap_err().to_string();
-        assert!(error.contains("list them again with `phase jobs`"), "{error}");
+        assert!(
+            error.contains("list them again with `phase jobs`"),
+            "{error}"
+        );
     }
 
     #[test]
     fn what_is_no_shard_is_refused() {
-        for text in ["", "0/4", "5/4", "1/0", "a/b", "3", "12:0-1", "3f9a01c2d45e:", "3f9a01c2d45e:4-2"] {
+        for text in [
+            "",
+            "0/4",
+            "5/4",
+            "1/0",
+            "a/b",
+            "3",
+            "12:0-1",
+            "3f9a01c2d45e:",
+            "3f9a01c2d45e:4-2",
+        ] {
             assert!(text.parse::<Shard>().is_err(), "{text}");
         }
         assert_eq!("2/3".parse(), Ok(Shard::Part { number: 2, of: 3 }));

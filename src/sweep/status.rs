@@ -4,8 +4,9 @@ use super::{Failure, Folder, FolderError, Job, Plan, Standing, read_failures};
 use crate::grid::Axis;
 use crate::record::Outcome;
 use crate::run;
-use crate::store;
-use std::collections::HashSet;
+use crate::store::{self, Holder, Lease, Tenure};
+use std::collections::{BTreeSet, HashSet};
+use std::fs;
 use std::time::Duration;
 
 /// How far the sweep of a results folder is.
@@ -29,8 +30,47 @@ pub struct Status {
     pub cpu_seconds_left: Option<f64>,
     /// Mean processor time of the jobs that are done (s), if any is.
     pub cpu_seconds_per_job: Option<f64>,
-    /// Whether a process is at work in the folder.
-    pub running: bool,
+    /// The processes that are at work in the folder; one on another machine may be dead.
+    pub processes: Vec<Holder>,
+    /// Runs that were begun and have no record yet: by whom, and whether that process is dead.
+    pub claimed: Vec<Claimed>,
+}
+
+/// A run that a process has begun.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Claimed {
+    /// Identity of the run.
+    pub id: String,
+    /// Which process, if its lease can be read.
+    pub holder: Option<Holder>,
+    /// Whether that process is known to be dead: the run is made again by whoever comes next.
+    pub is_stale: bool,
+}
+
+impl Claimed {
+    /// All of a folder, from one look at it.
+    fn all(folder: &Folder) -> Vec<Self> {
+        let files = fs::read_dir(folder.records())
+            .into_iter()
+            .flatten()
+            .flatten();
+        let names = files.filter_map(|file| file.file_name().into_string().ok());
+        let ids = names.filter_map(|name| Some(Lease::name_of(&name)?.to_owned()));
+        let ids: BTreeSet<String> = ids.collect();
+        let claimed = ids.into_iter().filter_map(|id| {
+            let (holder, is_stale) = match Lease::tenure(&folder.lease(&id)) {
+                Tenure::Free => return None,
+                Tenure::Held(holder) => (holder, false),
+                Tenure::Stale(holder) => (holder, true),
+            };
+            Some(Self {
+                id,
+                holder,
+                is_stale,
+            })
+        });
+        claimed.collect()
+    }
 }
 
 /// A run that has a checkpoint and no record.
@@ -100,7 +140,8 @@ impl Status {
             cpu_seconds_left: cpu_seconds_left(plan),
             cpu_seconds_per_job: cpu_seconds_per_job(plan),
             failures,
-            running: !folder.at_work()?.is_empty(),
+            processes: folder.at_work()?,
+            claimed: Claimed::all(folder),
         })
     }
 }

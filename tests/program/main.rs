@@ -35,6 +35,7 @@ mod rooms;
 mod scene_files;
 #[path = "../scenes/mod.rs"]
 mod scenes;
+mod shards;
 mod shared;
 mod silo_figures;
 mod silo_sweep;

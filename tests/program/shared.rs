@@ -86,7 +86,7 @@ fn a_folder_at_work_is_not_changed() {
     place
         .phase(&["status", "shared"])
         .code(0)
-        .says("running    yes");
+        .says("running    1 run, 1 process");
     child.kill().unwrap();
     child.wait().unwrap();
     place

@@ -7,11 +7,14 @@ mod cost;
 mod export;
 mod fit;
 mod generate;
+mod jobs;
+mod merge;
 mod new;
 mod plot;
 mod run;
 mod status;
 mod study;
+mod submit;
 mod sweep;
 mod verify;
 mod view;
@@ -33,7 +36,10 @@ pub(super) enum Command {
     Compare(compare::Arguments),
     Fit(fit::Arguments),
     Study(study::Arguments),
+    Jobs(jobs::Arguments),
+    Submit(submit::Arguments),
     Status(status::Arguments),
+    Merge(merge::Arguments),
     Verify(verify::Arguments),
     New(new::Arguments),
     Generate(generate::Arguments),
@@ -59,7 +65,10 @@ impl Command {
             Self::Compare(arguments) => compare::main(arguments, console),
             Self::Fit(arguments) => fit::main(arguments, console),
             Self::Study(arguments) => study::main(arguments, console),
+            Self::Jobs(arguments) => jobs::main(arguments, console),
+            Self::Submit(arguments) => submit::main(arguments, console),
             Self::Status(arguments) => status::main(arguments, console),
+            Self::Merge(arguments) => merge::main(arguments, console),
             Self::Verify(arguments) => verify::main(arguments, console),
             Self::New(arguments) => new::main(arguments, console),
             Self::Generate(arguments) => generate::main(arguments, console),

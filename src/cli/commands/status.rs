@@ -8,11 +8,13 @@ use crate::cli::options::Workers;
 use crate::cli::{format, refined};
 use phase::grid::{Axis, describe};
 use phase::refine::Finish;
-use phase::sweep::{Folder, Plan, Refining, Status, Sweep, UnderWay, work};
+use phase::store::{Holder, Process};
+use phase::sweep::{Claimed, Folder, Plan, Refining, Status, Sweep, UnderWay, work};
 use serde::Serialize;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
+use std::time::{SystemTime, UNIX_EPOCH};
 
 /// Show the progress of a sweep: jobs done, failed and left, runs with a checkpoint, and the time
 /// left.
@@ -65,7 +67,8 @@ impl FolderAnswer {
             under_way: UnderWayAnswer::all(&status.under_way, &sweep.axes),
             workers: workers.min(status.left.max(1)),
             seconds_left: seconds_left(&status, workers),
-            running: status.running,
+            processes: status.processes.clone(),
+            running: ClaimedAnswer::all(&status.claimed),
             refined: refined::Answer::new(
                 &sweep,
                 refining.as_ref(),
@@ -133,9 +136,32 @@ struct FolderAnswer {
     under_way: Vec<UnderWayAnswer>,
     workers: usize,
     seconds_left: Option<f64>,
-    running: bool,
+    processes: Vec<Holder>,
+    /// Runs that a process has begun.
+    running: Vec<ClaimedAnswer>,
     /// How well borders are known; none if the whole grid is run.
     refined: Option<refined::Answer>,
+}
+
+/// A run that a process has begun.
+#[derive(Serialize)]
+struct ClaimedAnswer {
+    id: String,
+    #[serde(flatten)]
+    holder: Option<Holder>,
+    /// Whether that process is known to be dead.
+    stale: bool,
+}
+
+impl ClaimedAnswer {
+    fn all(claimed: &[Claimed]) -> Vec<Self> {
+        let answer = |run: &Claimed| Self {
+            id: run.id.clone(),
+            holder: run.holder.clone(),
+            stale: run.is_stale,
+        };
+        claimed.iter().map(answer).collect()
+    }
 }
 
 /// A run that goes on from its checkpoint.
@@ -179,7 +205,8 @@ fn text(status: &Status, axes: &[Axis], workers: usize) -> String {
         bad,
         left,
         under_way,
-        running,
+        processes,
+        claimed,
         ..
     } = status;
     let mut text = format!(
@@ -207,11 +234,7 @@ fn text(status: &Status, axes: &[Axis], workers: usize) -> String {
         };
         text += &format!("\n  time left  {time}");
     }
-    text += if *running {
-        "\n  running    yes"
-    } else {
-        "\n  running    no"
-    };
+    text += &describe_running(processes, claimed);
     for run in under_way {
         text += &format!(
             "\n  under way  {} (job {}): checkpoint at frame {} of {}, {}",
@@ -230,4 +253,43 @@ fn text(status: &Status, axes: &[Axis], workers: usize) -> String {
         );
     }
     text
+}
+
+/// Who is at work, with how many runs, and what dead processes have left.
+fn describe_running(processes: &[Holder], claimed: &[Claimed]) -> String {
+    let held = claimed.iter().filter(|run| !run.is_stale);
+    let held: Vec<Option<&Process>> = held
+        .map(|run| run.holder.as_ref().map(|it| &it.process))
+        .collect();
+    let mut text = match processes.len() {
+        0 if held.is_empty() => "\n  running    no".to_owned(),
+        number => format!(
+            "\n  running    {}, {}",
+            format::count(held.len(), "run"),
+            format::count(number, "process")
+        ),
+    };
+    for holder in processes {
+        let own = held.iter().filter(|it| **it == Some(&holder.process));
+        text += &format!(
+            "\n  process    {holder}: {}, at work for {}",
+            format::count(own.count(), "run"),
+            format::duration(age(holder))
+        );
+    }
+    for run in claimed.iter().filter(|run| run.is_stale) {
+        let of = run.holder.as_ref().map(|it| format!(" of {it}"));
+        text += &format!(
+            "\n  stale      run {}{}, which is dead: the same sweep makes it again",
+            run.id,
+            of.unwrap_or_default()
+        );
+    }
+    text
+}
+
+/// Time since a lease was taken (s), by this machine's clock.
+fn age(holder: &Holder) -> f64 {
+    let now = SystemTime::now().duration_since(UNIX_EPOCH);
+    now.map_or(0.0, |it| it.as_secs().saturating_sub(holder.since) as f64)
 }

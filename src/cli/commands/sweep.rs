@@ -19,7 +19,7 @@ use phase::sweep::{
 use rounds::{Rounds, Run};
 use serde::Serialize;
 use std::collections::HashSet;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::atomic::Ordering;
 use std::time::Duration;
 
@@ -155,7 +155,9 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         console.answer_with_files(&answer);
         return Ok(if failed { Exit::Failed } else { Exit::Done });
     }
-    if !arguments.no_classify && let Some(_lease) = lease_of_labels(&folder, console)? {
+    if !arguments.no_classify
+        && let Some(_lease) = lease_of_labels(&folder, console)?
+    {
         let labelled = labels::label_folder(&folder, &sweep, &jobs, workers, console);
         let labelled = labelled.inspect_err(|_| console.answer_with_files(&answer))?;
         failed |= !labelled.problems.is_empty();
@@ -174,7 +176,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
 /// The results folder. Refuses one where a file of another program is in the way.
 fn folder_of(sweep: &Sweep, arguments: &Arguments) -> Result<Folder, Failure> {
     let root = arguments.out.clone();
-    let mut folder = Folder::new(root.unwrap_or_else(|| default_folder(&arguments.file)));
+    let mut folder = Folder::new(root.unwrap_or_else(|| folders::default_folder(&arguments.file)));
     if arguments.keep_labels {
         check_kept_labels(&folder, sweep)?;
         folder = folder.keeping_labels();
@@ -334,11 +336,6 @@ fn distinct(seeds: &[u64]) -> Result<Vec<u64>, Failure> {
             "duplicate --seed {seed}: its runs would count twice; give it once"
         ))),
     }
-}
-
-/// `results/<stem of the sweep file>`.
-pub(super) fn default_folder(file: &Path) -> PathBuf {
-    Path::new("results").join(file.file_stem().unwrap_or("sweep".as_ref()))
 }
 
 /// Says how an earlier sweep of the same folder differed.

@@ -92,7 +92,10 @@ fn clocks_of_machines_may_differ() {
         let lease = first.take(&path).unwrap().unwrap();
         let begun = Instant::now();
         while begun.elapsed() < 3 * PATIENCE_HERE {
-            assert!(second.take(&path).unwrap().is_none(), "taken from who lives");
+            assert!(
+                second.take(&path).unwrap().is_none(),
+                "taken from who lives"
+            );
             thread::sleep(BEAT_HERE / 3);
         }
         drop(lease);

@@ -183,7 +183,9 @@ impl Pool<'_> {
                 .for_each(|(_, standing)| *standing = Standing::Missing);
         }
         if let Some(shard) = self.shard {
-            let round = refinement.round(self.sweep).map_err(RefinementError::from)?;
+            let round = refinement
+                .round(self.sweep)
+                .map_err(RefinementError::from)?;
             plan.leave_to_others(&shard.of(&round).map_err(PlanError::from)?);
         }
         Ok(plan)

@@ -1,0 +1,59 @@
+//! A job file of HyperQueue, one task for each line of jobs.
+
+use super::{Order, Submission};
+use crate::cli::exit::Failure;
+
+pub(super) fn write(order: &Order<'_>) -> Result<Submission, Failure> {
+    let Order {
+        program,
+        file,
+        out,
+        here,
+        name,
+        arguments,
+        ..
+    } = order;
+    let cores = arguments.jobs;
+    let time = arguments.time.as_secs();
+    let logs = order.place.join("hyperqueue-logs");
+    let lines = order.lines();
+    let quoted = |text: &str| toml::Value::String(text.to_owned()).to_string();
+    let mut text = format!(
+        "# {} runs that are missing, about {:.1} core-hours. `phase submit` writes this file again.\n\
+         name = {}\n\
+         stream = {}\n",
+        order.next.missing.len(),
+        order.seconds / 3600.0,
+        quoted(&format!("phase-{name}")),
+        quoted(&logs.display().to_string())
+    );
+    // A failed run is noted in failed.csv, and ends nothing else. A task that was killed is started
+    // again, and continues from its checkpoints.
+    for (id, line) in lines.iter().enumerate() {
+        let command = format!(
+            "cd {here} && {program} sweep {file} --out {out} --job {line} --jobs {cores} || \
+             [ $? -eq 1 ]"
+        );
+        text += &format!(
+            "\n[[task]]\nid = {id}\ncommand = [\"bash\", \"-c\", {}]\ncrash_limit = 5\n\
+             [[task.request]]\nresources = {{ \"cpus\" = {cores} }}\ntime_request = \"{time}s\"\n",
+            quoted(&command)
+        );
+    }
+    let [todo, next] = order.write_next("", "hyperqueue")?;
+    let before: Vec<String> = (0..lines.len()).map(|id| id.to_string()).collect();
+    text += &format!(
+        "\n[[task]]\nid = {}\ncommand = [\"bash\", {}]\ndeps = [{}]\n",
+        lines.len(),
+        quoted(&next.display().to_string()),
+        before.join(", ")
+    );
+    let job = order.write("job.toml", &text)?;
+    let words = ["hq", "job", "submit-file"].map(str::to_owned).into_iter();
+    let words = words.chain([job.display().to_string()]);
+    Ok(Submission {
+        tasks: lines.len(),
+        commands: vec![words.chain(arguments.more.iter().cloned()).collect()],
+        files: vec![job, next, todo],
+    })
+}

@@ -1,0 +1,50 @@
+//! A project of row: a directory for each line of jobs, which is done when it holds `done.json`.
+
+use super::{Order, Submission, cannot_write, clock};
+use crate::cli::exit::Failure;
+use std::fs;
+
+pub(super) fn write(order: &Order<'_>) -> Result<Submission, Failure> {
+    let Order {
+        program,
+        file,
+        out,
+        here,
+        arguments,
+        ..
+    } = order;
+    let lines = order.lines();
+    for line in &lines {
+        // The same jobs have the same directory.
+        let name = blake3::hash(line.as_bytes()).to_hex();
+        let folder = order.place.join("shards").join(&name[..12]);
+        fs::create_dir_all(&folder).map_err(|it| cannot_write(&folder, &it))?;
+        order.write(&format!("shards/{}/job", &name[..12]), line)?;
+    }
+    let shards = order.path("shards")?;
+    let cores = arguments.jobs;
+    let command = format!(
+        "cd {here} && {program} sweep {file} --out {out} --jobs {cores} --json --job \
+         \"$(cat {shards}/{{directory}}/job)\" > {shards}/{{directory}}/answer.json && \
+         mv {shards}/{{directory}}/answer.json {shards}/{{directory}}/done.json"
+    );
+    let text = format!(
+        "# {} runs that are missing, about {:.1} core-hours. `phase submit` writes this file again.\n\
+         [workspace]\npath = \"shards\"\n\n\
+         [[action]]\nname = \"sweep\"\nproducts = [\"done.json\"]\ncommand = {}\n\n\
+         [action.resources]\nthreads_per_process = {cores}\nwalltime.per_directory = \"{}\"\n",
+        order.next.missing.len(),
+        order.seconds / 3600.0,
+        toml::Value::String(format!("({command})")),
+        clock(arguments.time)
+    );
+    let workflow = order.write("workflow.toml", &text)?;
+    let place = order.path("")?;
+    let words = ["env", "-C", &place, "row", "submit", "--yes"].map(str::to_owned);
+    let words = words.into_iter();
+    Ok(Submission {
+        tasks: lines.len(),
+        commands: vec![words.chain(arguments.more.iter().cloned()).collect()],
+        files: vec![workflow],
+    })
+}

@@ -1,0 +1,109 @@
+//! An array of Slurm, one task for each shard that lacks runs.
+
+use super::{Order, Submission, clock};
+use crate::cli::exit::Failure;
+use phase::sweep::Shard;
+use std::collections::BTreeSet;
+use std::process::Command;
+
+/// Largest array where Slurm does not say it, its default.
+const USUAL_ARRAY: usize = 1001;
+
+pub(super) fn write(order: &Order<'_>) -> Result<Submission, Failure> {
+    // Tasks are numbered from 1, and their largest number is below the size.
+    let of = order.tasks(largest_array() - 1);
+    let shards = shards_with_missing(order, of);
+    let Order {
+        program,
+        file,
+        out,
+        here,
+        name,
+        arguments,
+        ..
+    } = order;
+    let (cores, time) = (arguments.jobs, clock(arguments.time));
+    let log = order.place.join("%A.log");
+    let (array, log) = (ranges(&shards), log.display());
+    let (runs, hours) = (order.next.missing.len(), order.seconds / 3600.0);
+    let text = format!(
+        "#!/bin/bash\n\
+         #SBATCH --job-name=phase-{name}\n\
+         #SBATCH --array={array}\n\
+         #SBATCH --cpus-per-task={cores}\n\
+         #SBATCH --time={time}\n\
+         #SBATCH --signal=B:TERM@120\n\
+         #SBATCH --requeue\n\
+         #SBATCH --open-mode=append\n\
+         #SBATCH --output={log}\n\
+         \n\
+         # {runs} runs that are missing, about {hours:.1} core-hours. Each task makes a shard of\n\
+         # them. `phase submit` writes this file again.\n\
+         cd {here} || exit\n\
+         \n\
+         # Slurm sends TERM before the time is up, and when it needs the node: runs under way leave\n\
+         # a checkpoint, and the task goes back into the queue.\n\
+         again() {{\n    \
+             kill -TERM $work\n    \
+             wait $work\n    \
+             [ $? -eq 130 ] && scontrol requeue \"${{SLURM_ARRAY_JOB_ID}}_$SLURM_ARRAY_TASK_ID\"\n    \
+             exit\n\
+         }}\n\
+         trap again TERM\n\
+         {program} sweep {file} --out {out} --shard $SLURM_ARRAY_TASK_ID/{of} --jobs {cores} &\n\
+         work=$!\n\
+         wait $work\n"
+    );
+    let script = order.write("submit.sh", &text)?;
+    let log = order.place.join("%j.log");
+    let head = format!(
+        "#SBATCH --job-name=phase-{name}-next\n#SBATCH --time=01:00:00\n\
+         #SBATCH --cpus-per-task={cores}\n#SBATCH --output={}\n",
+        log.display()
+    );
+    let [todo, next] = order.write_next(&head, "slurm")?;
+    let sbatch = |options: &[&str], script: &std::path::Path| -> Vec<String> {
+        let words = ["sbatch", "--parsable"].iter().chain(options);
+        let words = words.map(|it| (*it).to_owned());
+        let words = words.chain(arguments.more.iter().cloned());
+        words.chain([script.display().to_string()]).collect()
+    };
+    Ok(Submission {
+        tasks: shards.len(),
+        commands: vec![
+            sbatch(&[], &script),
+            sbatch(&["--dependency=afterany:{}"], &next),
+        ],
+        files: vec![script, next, todo],
+    })
+}
+
+/// Numbers of the shards that lack runs.
+fn shards_with_missing(order: &Order<'_>, of: usize) -> Vec<usize> {
+    let parts = Shard::parts(&order.next.jobs, of);
+    let missing = order.next.missing.iter();
+    let numbers: BTreeSet<usize> = missing.map(|&place| parts[place]).collect();
+    numbers.into_iter().collect()
+}
+
+/// Numbers as Slurm lists them: `1-3,7`.
+fn ranges(numbers: &[usize]) -> String {
+    let runs = numbers.chunk_by(|a, b| a + 1 == *b);
+    let range = |run: &[usize]| match run {
+        [one] => one.to_string(),
+        [first, .., last] => format!("{first}-{last}"),
+        [] => String::new(),
+    };
+    runs.map(range).collect::<Vec<_>>().join(",")
+}
+
+/// The largest array that this site allows.
+fn largest_array() -> usize {
+    let output = Command::new("scontrol").args(["show", "config"]).output();
+    let text = output.map(|it| String::from_utf8_lossy(&it.stdout).into_owned());
+    let size = text.ok().and_then(|text| {
+        let line = text.lines().find(|line| line.starts_with("MaxArraySize"))?;
+        line.split('=').nth(1)?.trim().parse().ok()
+    });
+    size.unwrap_or(USUAL_ARRAY).max(2)
+}
