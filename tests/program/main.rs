@@ -5,6 +5,7 @@
 mod ablate;
 mod accuracy;
 mod checkpoint;
+mod clusters;
 mod command_line;
 mod compare;
 mod cost;
