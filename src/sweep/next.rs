@@ -66,8 +66,7 @@ impl Next {
             work += more;
         }
         shards.extend((!own.is_empty()).then_some(own));
-        let shard = |own: &Vec<usize>| Shard::of_places(&self.jobs, own);
-        shards.iter().map(shard).collect()
+        Shard::of_places(&self.jobs, &shards)
     }
 }
 

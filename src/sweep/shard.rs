@@ -40,19 +40,14 @@ pub struct ForeignShard(Shard);
 crate::refusal::always!(true: ForeignShard);
 
 impl Shard {
-    /// The shard of jobs at these places, in increasing order, of all jobs.
-    pub fn of_places(jobs: &[Job], places: &[usize]) -> Self {
-        let mut ranges: Vec<RangeInclusive<usize>> = Vec::new();
-        for &place in places {
-            match ranges.last_mut() {
-                Some(last) if *last.end() + 1 == place => *last = *last.start()..=place,
-                _ => ranges.push(place..=place),
-            }
-        }
-        Self::Listed {
-            digest: digest(jobs),
-            places: ranges,
-        }
+    /// Shards of jobs at these places, each in increasing order, of all jobs.
+    pub fn of_places(jobs: &[Job], places: &[Vec<usize>]) -> Vec<Self> {
+        let digest = digest(jobs);
+        let shard = |places: &Vec<usize>| Self::Listed {
+            digest: digest.clone(),
+            places: ranges(places),
+        };
+        places.iter().map(shard).collect()
     }
 
     /// The part that each job belongs to, of so many, from 1.
@@ -100,6 +95,13 @@ fn deal(work: &[u64], parts: usize) -> Vec<usize> {
         }
     }
     dealt
+}
+
+/// Places in increasing order, as ranges.
+fn ranges(places: &[usize]) -> Vec<RangeInclusive<usize>> {
+    let runs = places.chunk_by(|a, b| a + 1 == *b);
+    runs.filter_map(|run| Some(*run.first()?..=*run.last()?))
+        .collect()
 }
 
 /// A digest of the identities of all jobs, in their order.
@@ -204,8 +206,8 @@ mod tests {
         fn shards_are_read_back(places in prop::collection::btree_set(0_usize..60, 1..40)) {
             let jobs = jobs(60);
             let places: Vec<usize> = places.into_iter().collect();
-            let shard = Shard::of_places(&jobs, &places);
-            prop_assert_eq!(&shard.to_string().parse::<Shard>().unwrap(), &shard);
+            let shard = &Shard::of_places(&jobs, std::slice::from_ref(&places))[0];
+            prop_assert_eq!(&shard.to_string().parse::<Shard>().unwrap(), shard);
             let own = shard.of(&jobs).unwrap();
             let expected: HashSet<&str> = places.iter().map(|&it| jobs[it].id.as_str()).collect();
             prop_assert_eq!(own, expected);
@@ -228,7 +230,7 @@ mod tests {
     /// Places in a list say nothing of another list.
     #[test]
     fn a_list_of_other_jobs_is_refused() {
-        let shard = Shard::of_places(&jobs(5), &[0, 1, 4]);
+        let shard = &Shard::of_places(&jobs(5), &[vec![0, 1, 4]])[0];
         assert!(shard.to_string().ends_with(":0-1,4"));
         let error = shard.of(&jobs(6)).unwrap_err().to_string();
         assert!(

@@ -10,7 +10,10 @@ const TABLES: [&str; 3] = ["labels.csv", "points.csv", "sweep.json"];
 #[cfg(unix)]
 fn with_slurm(place: &Workplace, largest: usize) {
     let scripts = [
-        ("scontrol", format!("echo 'MaxArraySize            = {largest}'")),
+        (
+            "scontrol",
+            format!("echo 'MaxArraySize            = {largest}'"),
+        ),
         (
             "sbatch",
             r#"
@@ -76,7 +79,7 @@ fn a_sweep_goes_through_an_array() {
     submit(&place, &[&arguments[..], &["--dry-run"]].concat())
         .code(0)
         // Largest number of a task: one less than the size of arrays.
-        .says("6 runs missing, about 0.0 core-hours, in 3 tasks of 1 core");
+        .says("6 runs missing, about 0.000 core-hours, in 3 tasks of 1 core");
     assert!(!place.path("submitted").exists());
     let script = place.read("results/tiny/cluster/submit.sh");
     assert!(script.contains("#SBATCH --array=1-3\n"), "{script}");
@@ -85,7 +88,10 @@ fn a_sweep_goes_through_an_array() {
     let submitted = place.read("submitted");
     let lines: Vec<&str> = submitted.lines().collect();
     assert_eq!(lines.len(), 2, "{submitted}");
-    assert!(lines[0].starts_with("--parsable --partition p "), "{submitted}");
+    assert!(
+        lines[0].starts_with("--parsable --partition p "),
+        "{submitted}"
+    );
     assert!(
         lines[1].starts_with("--parsable --dependency=afterany:17 --partition p "),
         "{submitted}"
@@ -110,7 +116,11 @@ fn rounds_follow_each_other() {
     place.write("tiny.toml", &text);
     submit(&place, &["tiny.toml", "--to", "slurm", "--tasks", "2"]).code(0);
     assert!(place.read("submitted").lines().count() >= 6);
-    same_as_alone(&place, "results/tiny", &["labels.csv", "borders.csv", "progress.json"]);
+    same_as_alone(
+        &place,
+        "results/tiny",
+        &["labels.csv", "borders.csv", "progress.json"],
+    );
 }
 
 /// Only shards that lack runs are submitted again, and a sweep whose tasks make no run is not
@@ -134,7 +144,10 @@ fn what_is_missing_is_submitted_again() {
     fs::write(path.join("file"), "").unwrap();
     submit(&place, &arguments).code(0);
     let output = place.read("output");
-    assert!(output.contains("the tasks made no run; see their output"), "{output}");
+    assert!(
+        output.contains("the tasks made no run; see their output"),
+        "{output}"
+    );
     assert_eq!(place.read("submitted").lines().count(), 2);
 }
 
@@ -143,7 +156,15 @@ fn job_files_of_other_systems_list_what_is_missing() {
     let place = Workplace::new();
     place.write("tiny.toml", &TinySweep::default().text());
     place
-        .phase(&["submit", "tiny.toml", "--to", "hyperqueue", "--tasks", "3", "--dry-run"])
+        .phase(&[
+            "submit",
+            "tiny.toml",
+            "--to",
+            "hyperqueue",
+            "--tasks",
+            "3",
+            "--dry-run",
+        ])
         .code(0)
         .says("6 runs missing");
     let job: toml::Table = place.read("results/tiny/cluster/job.toml").parse().unwrap();
@@ -151,18 +172,37 @@ fn job_files_of_other_systems_list_what_is_missing() {
     let (last, tasks) = tasks.split_last().unwrap();
     assert_eq!(last["deps"].as_array().unwrap().len(), tasks.len());
     place
-        .phase(&["submit", "tiny.toml", "--to", "row", "--tasks", "3", "--dry-run"])
+        .phase(&[
+            "submit",
+            "tiny.toml",
+            "--to",
+            "row",
+            "--tasks",
+            "3",
+            "--dry-run",
+        ])
         .code(0);
-    let row: toml::Table = place.read("results/tiny/cluster/workflow.toml").parse().unwrap();
+    let row: toml::Table = place
+        .read("results/tiny/cluster/workflow.toml")
+        .parse()
+        .unwrap();
     let command = row["action"][0]["command"].as_str().unwrap();
-    let shards: Vec<_> = fs::read_dir(place.path("results/tiny/cluster/shards")).unwrap().collect();
+    let shards: Vec<_> = fs::read_dir(place.path("results/tiny/cluster/shards"))
+        .unwrap()
+        .collect();
     assert!(shards.len() > 1);
     // Both describe all runs: a shell makes them.
     for shard in shards {
         let name = shard.unwrap().file_name().into_string().unwrap();
         let command = command.replace("{directory}", &name);
         run(&command);
-        assert!(place.path("results/tiny/cluster/shards").join(name).join("done.json").exists());
+        assert!(
+            place
+                .path("results/tiny/cluster/shards")
+                .join(name)
+                .join("done.json")
+                .exists()
+        );
     }
     same_as_alone(&place, "results/tiny", &TABLES);
     fs::remove_dir_all(place.path("results/tiny/records")).unwrap();
@@ -204,7 +244,11 @@ fn folders_of_other_sweeps_are_not_joined() {
     let place = Workplace::new();
     place.write("tiny.toml", &TinySweep::default().text());
     place.write("other.toml", &TinySweep::slow().text());
-    for (file, folder) in [("tiny.toml", "one"), ("other.toml", "other"), ("tiny.toml", "two")] {
+    for (file, folder) in [
+        ("tiny.toml", "one"),
+        ("other.toml", "other"),
+        ("tiny.toml", "two"),
+    ] {
         place.phase(&["sweep", file, "--out", folder]).code(0);
     }
     place

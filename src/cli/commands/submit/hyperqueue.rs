@@ -19,11 +19,11 @@ pub(super) fn write(order: &Order<'_>) -> Result<Submission, Failure> {
     let lines = order.lines();
     let quoted = |text: &str| toml::Value::String(text.to_owned()).to_string();
     let mut text = format!(
-        "# {} runs that are missing, about {:.1} core-hours. `phase submit` writes this file again.\n\
+        "# {} runs that are missing, about {} core-hours. `phase submit` writes this file again.\n\
          name = {}\n\
          stream = {}\n",
         order.next.missing.len(),
-        order.seconds / 3600.0,
+        order.core_hours(),
         quoted(&format!("phase-{name}")),
         quoted(&logs.display().to_string())
     );

@@ -29,12 +29,12 @@ pub(super) fn write(order: &Order<'_>) -> Result<Submission, Failure> {
          mv {shards}/{{directory}}/answer.json {shards}/{{directory}}/done.json"
     );
     let text = format!(
-        "# {} runs that are missing, about {:.1} core-hours. `phase submit` writes this file again.\n\
+        "# {} runs that are missing, about {} core-hours. `phase submit` writes this file again.\n\
          [workspace]\npath = \"shards\"\n\n\
          [[action]]\nname = \"sweep\"\nproducts = [\"done.json\"]\ncommand = {}\n\n\
          [action.resources]\nthreads_per_process = {cores}\nwalltime.per_directory = \"{}\"\n",
         order.next.missing.len(),
-        order.seconds / 3600.0,
+        order.core_hours(),
         toml::Value::String(format!("({command})")),
         clock(arguments.time)
     );

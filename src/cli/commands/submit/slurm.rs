@@ -25,7 +25,7 @@ pub(super) fn write(order: &Order<'_>) -> Result<Submission, Failure> {
     let (cores, time) = (arguments.jobs, clock(arguments.time));
     let log = order.place.join("%A.log");
     let (array, log) = (ranges(&shards), log.display());
-    let (runs, hours) = (order.next.missing.len(), order.seconds / 3600.0);
+    let (runs, hours) = (order.next.missing.len(), order.core_hours());
     let text = format!(
         "#!/bin/bash\n\
          #SBATCH --job-name=phase-{name}\n\
@@ -37,7 +37,7 @@ pub(super) fn write(order: &Order<'_>) -> Result<Submission, Failure> {
          #SBATCH --open-mode=append\n\
          #SBATCH --output={log}\n\
          \n\
-         # {runs} runs that are missing, about {hours:.1} core-hours. Each task makes a shard of\n\
+         # {runs} runs that are missing, about {hours} core-hours. Each task makes a shard of\n\
          # them. `phase submit` writes this file again.\n\
          cd {here} || exit\n\
          \n\
