@@ -8,8 +8,8 @@ use std::collections::HashMap;
 /// point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Agreement {
-    /// Whether runs of the same point and seed are paired; else points, whose label is that of most
-    /// of their seeds, and whose measures are means over them.
+    /// Whether runs of the same point and seed are paired; else points, by the label of most of
+    /// their seeds and the means of their measures.
     pub by_runs: bool,
     /// Number of pairs.
     pub pairs: usize,

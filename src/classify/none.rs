@@ -4,7 +4,7 @@
 use super::{Family, Label};
 
 impl Label {
-    /// No guard ended the run, of which no sieve says more.
+    /// No guard ended the run, and there are no sieves.
     pub const STABLE: Self = Self::new(9, "stable", 0xe6_e2_f7);
 }
 

@@ -134,7 +134,7 @@ pub(super) fn files_of_figures(
     names.into_iter().flat_map(move |name| files(name.as_ref()))
 }
 
-/// Makes a folder and those above it, unless they are there.
+/// Makes a folder and its parents, unless they exist.
 pub(super) fn make(folder: &Path) -> Result<(), Failure> {
     std::fs::create_dir_all(folder).map_err(|error| {
         Failure::failed(format_args!("{error}{}", store::advice(&error))).at(folder)

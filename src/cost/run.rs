@@ -78,7 +78,7 @@ impl RunCost {
     /// The same with a model of the caller's.
     ///
     /// # Errors
-    /// Those of [`measure`](Self::measure).
+    /// As for [`measure`](Self::measure).
     pub fn measure_model(
         model: &dyn Model,
         scene: &Scene,

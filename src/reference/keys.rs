@@ -46,7 +46,7 @@ impl KeysPage {
     fn tables(&mut self, path: &str, description: Option<&str>, kind: &ValueKind) {
         match kind {
             ValueKind::Table(table) if path.is_empty() => {
-                self.text += &(paragraphs(table) + &rows(table, None));
+                self.text += &(paragraphs(table) + &rows(table));
                 self.tables_below(path, table);
             }
             ValueKind::Table(table) => {
@@ -55,15 +55,14 @@ impl KeysPage {
                     true => String::new(),
                     false => paragraphs(table),
                 };
-                self.section(&heading(path), &(text + &rows(table, None)));
+                self.section(&heading(path), &(text + &rows(table)));
                 self.tables_below(path, table);
             }
             ValueKind::Tagged(tag, variants) => {
                 for variant in variants {
                     let (word, table) = (&variant.word, &variant.table);
                     let heading = format!("{} with `{tag} = \"{word}\"`", heading(path));
-                    let rows = rows(table, Some((tag, word)));
-                    self.section(&heading, &(paragraphs(table) + &rows));
+                    self.section(&heading, &(paragraphs(table) + &rows(table)));
                     self.tables_below(path, table);
                 }
             }
@@ -111,13 +110,13 @@ fn paragraphs(table: &KeyTable) -> String {
     }
 }
 
-/// A row for each key, and first one for the key that selects this table.
-fn rows(table: &KeyTable, tag: Option<(&str, &str)>) -> String {
+/// A row for each key, except the one that selects this table.
+fn rows(table: &KeyTable) -> String {
+    if table.keys.is_empty() {
+        return "No other keys.\n".to_owned();
+    }
     let mut rows =
         "| key | type | unit | default | description |\n|---|---|---|---|---|\n".to_owned();
-    if let Some((tag, word)) = tag {
-        rows += &format!("| `{tag}` | \"{word}\" | | *needed* | |\n");
-    }
     for key in &table.keys {
         let units: Vec<&str> = key.quantity.iter().flat_map(|it| it.units()).collect();
         let cells = [

@@ -30,7 +30,7 @@ pub fn write_atomic(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
 /// longer than all the rest. After a crash of the machine, not of the program, it may be empty.
 ///
 /// # Errors
-/// Those of [`write_atomic`].
+/// As for [`write_atomic`].
 pub(super) fn write_one_of_many(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
     replace(path, Durable::No, |file| file.write_all(bytes))
         .map_err(|error| StoreError::writing(path, error))
@@ -39,7 +39,7 @@ pub(super) fn write_one_of_many(path: &Path, bytes: &[u8]) -> Result<(), StoreEr
 /// The same for a file too large to be in memory: `fill` writes it.
 ///
 /// # Errors
-/// Those of [`write_atomic`].
+/// As for [`write_atomic`].
 pub(super) fn write_atomic_with(
     path: &Path,
     fill: impl FnOnce(&mut BufWriter<&mut File>) -> io::Result<()>,

@@ -41,8 +41,7 @@ measures! {
         /// That time over the window, less 1.
         arching_margin: evidence("margin of the arching sieve", "").signed(),
         /// Number of grains over the opening at the end; empty in a scene whose geometry has no
-        /// door to tell where that is. Without any nothing blocks it, and what is left lies beside
-        /// it.
+        /// door. Without any nothing blocks it: the remaining grains lie elsewhere.
         over_opening: evidence("grains over the opening at the end", ""),
     }
 }

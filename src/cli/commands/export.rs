@@ -112,7 +112,7 @@ impl Format {
         }
     }
 
-    /// A file beside that of the states, with this at the end of its name.
+    /// A file next to the states' file, with this at the end of its name.
     fn beside(self, target: &Path, name: &str) -> PathBuf {
         let mut stem = target.file_stem().unwrap_or_default().to_owned();
         stem.push(format!("-{name}.{}", self.extension()));
@@ -337,7 +337,7 @@ fn write(
 /// Writes a file about a record.
 type Write = fn(&RunRecord, &Path) -> Result<(), StoreError>;
 
-/// What goes to files beside that of the states: what their names say, and what writes them.
+/// Further files next to the states' file: the ends of their names, and what writes them.
 fn more(record: &RunRecord, format: Format) -> Vec<(&'static str, Write)> {
     let fixed: Option<Write> = match format {
         Format::Xyz => Some(store::write_fixed_xyz),

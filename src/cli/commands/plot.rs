@@ -22,18 +22,18 @@ use std::path::{Path, PathBuf};
 /// two times.
 #[derive(clap::Args)]
 #[command(after_help = "\
-Example: what can be drawn of a folder, and one of it
+Example: list the figures of a folder, and draw one
   phase plot --list results/quick
   phase plot results/quick --figure hole-radius
 Example: the speeds in two runs
   phase plot results/quick --figure speeds --point radius=0.002,omega=8 --point radius=0.006,omega=8
 Example: the paths of the spheres in one record, which needs `trajectory = true` in its scene
   phase plot results/collisions/cradle.h5
-Example: where the energy went, in a record of `phase run --ledger`; energies and speeds of any
+Example: where the energy went, in a record of `phase run --ledger`; energies and speeds of any record
   phase plot tank.h5 --figure ledger,energies,speeds --out figures
 Example: two drainages in one figure, from when the flow has developed
   phase plot full.h5 coarse.h5 --figure radial-distribution --times 40,200 --out figures
-Example: a drainage beside points of a paper
+Example: a drainage with points from a paper
   phase plot full.h5 --figure cross-profile --times 80,180 --data paper.csv")]
 pub(crate) struct Arguments {
     /// A results folder of `phase sweep`, a folder that holds several, or one or more records

@@ -37,13 +37,12 @@ Example: the same with other keys
 Example: one job of a sweep, this time with all spheres at every frame
   phase run --from results/quick --point radius=0.003,omega=6 --trajectory --out spout.h5
 
-Example: a long run that was interrupted goes on
+Example: continue an interrupted run
   phase run sweeps/scenes/silo.toml --resume
 
-A long run leaves a checkpoint beside the record to be, NAME.checkpoint beside NAME.h5,
-every two minutes and when it is interrupted. What goes on from it gives the same bits as a run that
-was not interrupted. Only the same build of phase, with the same scene and output, can go on from
-it.")]
+A long run writes a checkpoint, NAME.checkpoint next to NAME.h5, every two minutes and when it is
+interrupted. A continued run has the same bits as an uninterrupted one. Only the same build of phase,
+with the same scene and output, reads a checkpoint.")]
 pub(crate) struct Arguments {
     /// The scene file (TOML).
     #[arg(required_unless_present = "from")]
@@ -84,7 +83,7 @@ pub(crate) struct Arguments {
     /// Time between two checkpoints (s); 0 for a checkpoint at every frame [default: 120].
     #[arg(long, value_name = "SECONDS", value_parser = values::seconds)]
     checkpoint_interval: Option<Duration>,
-    /// Threads for the simulation; smaller runs than 4096 spheres stay on one. The bits do not
+    /// Threads for the simulation; runs of fewer than 4096 spheres use one. The bits do not
     /// depend on it.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = values::threads)]
     threads: usize,
@@ -209,8 +208,8 @@ fn lock(record: &Path) -> Result<Lock, Failure> {
     })
 }
 
-/// Writes the record, into its folder made anew if somebody removed it. Where that fails, what is
-/// left of the run is its latest checkpoint. The record loses its states if it need not keep them.
+/// Writes the record, and makes its folder again if somebody removed it. If this fails, only the
+/// latest checkpoint of the run remains. The record loses its states if it need not keep them.
 fn write(
     record: &mut RunRecord,
     path: &Path,

@@ -28,7 +28,7 @@ use target::Target;
 /// shows. Several records are drawn side by side, to one scale.
 #[derive(clap::Args)]
 #[command(after_help = "\
-Example: the run at five times, then at two of one's own
+Example: the run at the default times, then at two chosen times
   phase view spout.h5
   phase view spout.h5 --time 1.5,5 --out late.png
 
@@ -43,7 +43,7 @@ Example: layers of a drainage in a cut through the middle, and what is near the 
 Example: two runs of one scene, with names of their own
   phase view a.h5 b.h5 --label \"no bias\" --label \"a bias of 3\" --out pair.png
 
-Example: an animation in real time; APNG (.png) keeps smaller files, GIF is shown by every program
+Example: an animation in real time; APNG (.png) files are smaller, every program shows GIF
   phase run --from results/quick --point radius=0.003,omega=6 --snapshot-interval 0.05 \\
     --out spout.h5
   phase view spout.h5 --animate spout.gif

@@ -72,7 +72,7 @@ fn describe(study: &StabilityStudy) -> String {
 struct Span {
     integrator: String,
     runs: usize,
-    /// Least and largest time step over its limit; none where nothing limits the step.
+    /// Least and largest time step over its limit; `None` if nothing limits the step.
     least_ratio: Option<f64>,
     largest_ratio: Option<f64>,
 }

@@ -27,7 +27,7 @@ pub(super) fn weakest(jobs: &[Job]) -> Option<Walls<'_>> {
 }
 
 impl Walls<'_> {
-    /// Speed that the wall holds over that of the fastest impact.
+    /// Speed that the wall holds over the speed of the fastest impact.
     fn margin(&self) -> f64 {
         self.wall.speed / self.impact
     }

@@ -19,8 +19,7 @@ pub(super) enum Input {
     Table(Vec<Column>),
 }
 
-/// Reads all files. Those of other programs take the scene that is given, or that of the first
-/// record.
+/// Reads all files. Files of other programs take the given scene, or else the first record's.
 pub(super) fn read(paths: &[PathBuf], scene: Option<&Path>) -> Result<Vec<Input>, Failure> {
     let is_table = |path: &&PathBuf| {
         path.extension()

@@ -24,7 +24,7 @@ struct Before {
 }
 
 impl Before {
-    /// Of a record, if it is there.
+    /// Of a record, if it exists.
     fn read(path: &Path) -> Result<Option<Self>, Failure> {
         if !path.exists() {
             return Ok(None);

@@ -71,7 +71,7 @@ impl Rounds<'_> {
 pub(super) struct Part {
     /// Printed before its progress; may be empty.
     pub(super) head: String,
-    /// Most jobs of the whole, if these are more than those of the plan.
+    /// Largest number of jobs in total, if larger than the plan's.
     pub(super) jobs: Option<usize>,
 }
 

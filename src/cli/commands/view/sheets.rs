@@ -60,7 +60,7 @@ impl<'a> Sheets<'a> {
             Color::Height => ColorBy::height_of(all()),
             Color::Radius => ColorBy::radius_of(runs.iter().flat_map(|run| &run.record.radius)),
             Color::Index => ColorBy::Index,
-            // Those of each run.
+            // Each run has its own.
             Color::Layer | Color::PackingFraction | Color::None => ColorBy::Nothing,
         };
         let color = |run| own_color(run, arguments.color).unwrap_or_else(|| color.clone());
