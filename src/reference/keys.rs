@@ -124,7 +124,7 @@ fn rows(table: &KeyTable) -> String {
             type_words(&key.kind),
             units.join(", "),
             default(key),
-            key.description.clone().unwrap_or_default(),
+            description(key, &units),
         ];
         let cells = cells.map(|cell| match cell.as_str() {
             "" => " ".to_owned(),
@@ -187,6 +187,14 @@ fn bounds(range: NumberRange) -> String {
         (false, true) => format!(" {high}"),
         (true, true) => format!("{low}, {high}"),
     }
+}
+
+/// The description of a key, without the units that have a column.
+fn description(key: &TableKey, units: &[&str]) -> String {
+    let text = key.description.clone().unwrap_or_default();
+    units
+        .iter()
+        .fold(text, |text, unit| text.replace(&format!(" ({unit})"), ""))
 }
 
 fn default(key: &TableKey) -> String {

@@ -29,7 +29,7 @@ Example: the speeds in two runs
   phase plot results/quick --figure speeds --point radius=0.002,omega=8 --point radius=0.006,omega=8
 Example: the paths of the spheres in one record, which needs `trajectory = true` in its scene
   phase plot results/collisions/cradle.h5
-Example: where the energy went, in a record of `phase run --ledger`; energies and speeds of any record
+Example: where the energy went in a record of `phase run --ledger`; energies and speeds
   phase plot tank.h5 --figure ledger,energies,speeds --out figures
 Example: two drainages in one figure, from when the flow has developed
   phase plot full.h5 coarse.h5 --figure radial-distribution --times 40,200 --out figures

@@ -41,8 +41,8 @@ Example: continue an interrupted run
   phase run sweeps/scenes/silo.toml --resume
 
 A long run writes a checkpoint, NAME.checkpoint next to NAME.h5, every two minutes and when it is
-interrupted. A continued run has the same bits as an uninterrupted one. Only the same build of phase,
-with the same scene and output, reads a checkpoint.")]
+interrupted. A continued run has the same bits as an uninterrupted one. Only the same build of
+phase, with the same scene and output, reads a checkpoint.")]
 pub(crate) struct Arguments {
     /// The scene file (TOML).
     #[arg(required_unless_present = "from")]

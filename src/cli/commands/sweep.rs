@@ -32,8 +32,8 @@ Example: the 9 x 9 grid on four cores, results in ./results/quick
 
 The results folder holds sweep.json (the sweep as run), records/ (one HDF5 file per run),
 labels.csv (one row per run), points.csv (one row per point of the grid), the figures as SVG
-and PNG, and, if any job failed, failed.csv. The folder of a refined sweep also holds refined.csv (the
-probability of each label at each point) and borders.csv (the borders with their bands).")]
+and PNG, and, if any job failed, failed.csv. The folder of a refined sweep also holds refined.csv
+(the probability of each label at each point) and borders.csv (the borders with their bands).")]
 pub(crate) struct Arguments {
     /// The sweep file (TOML).
     file: PathBuf,
@@ -200,8 +200,8 @@ fn tell_of_earlier_borders(folder: &Folder, sweep: &Sweep, console: &Console) {
     }
 }
 
-/// Takes the right to run a sweep into a folder, together with other processes that run the same one
-/// unless everything is run again.
+/// Takes the right to run a sweep into a folder: together with other processes that run the same
+/// one, unless everything is run again.
 fn enter(folder: &Folder, sweep: &Sweep, arguments: &Arguments) -> Result<Access, Failure> {
     let access = match arguments.force {
         true => folder.lock().map(Access::Alone),
