@@ -1,4 +1,4 @@
-//! Runs that leave checkpoints, and go on from them.
+//! Runs that write checkpoints, and continue from them.
 //!
 //! A checkpoint lies next to the future record, and is removed when the record is written. It is
 //! written at frames only, and changes nothing: an interrupted run that is continued has the same
@@ -59,10 +59,10 @@ impl Checkpoints {
         self.interval
     }
 
-    /// Lets a run that is at its start go on from the checkpoint. False if there is none.
+    /// Continues a run that is at its start from the checkpoint. False if there is none.
     ///
     /// # Errors
-    /// If nothing can go on from the file; file and run stay as they were.
+    /// If no run can continue from the file; file and run stay as they were.
     pub fn restore(&self, run: &mut Run) -> Result<bool, CheckpointError> {
         let Some(checkpoint) = store::read_checkpoint(&self.path, run.scene())? else {
             return Ok(false);

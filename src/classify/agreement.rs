@@ -43,10 +43,10 @@ struct Compared {
 type PairKey = Vec<u64>;
 
 impl Agreement {
-    /// Of two tables.
+    /// The agreement of two tables.
     ///
     /// # Errors
-    /// What the tables differ in: families of scenes, axes, or all points.
+    /// If the tables differ in their families of scenes, their axes, or all points.
     pub fn of(one: &LabelTable, other: &LabelTable) -> Result<Self, String> {
         if one.family != other.family {
             let names = [one.family.name, other.family.name];

@@ -1,6 +1,6 @@
-//! What is measured of a run besides its label: columns of `labels.csv`, and maps.
+//! Measures of a run: columns of `labels.csv`, and maps.
 
-/// A number that is measured of a run besides its label.
+/// A measure of a run, a number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measure {
     /// Name of its column in `labels.csv`; its map has dashes in place of underscores.

@@ -1,4 +1,4 @@
-//! What the program says: results to the standard output, everything else to the standard error.
+//! Output of the program: results to the standard output, everything else to the standard error.
 
 use super::exit::Failure;
 use serde::Serialize;
@@ -7,7 +7,7 @@ use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// Where the program speaks, and how much.
+/// Where the program writes, and how much.
 pub(crate) struct Console {
     quiet: bool,
     verbose: bool,
@@ -40,7 +40,7 @@ impl Console {
         self.verbose
     }
 
-    /// Prints a result for people. If that fails the work goes on, and the program fails when it is
+    /// Prints a result for people. If this fails the work continues, and the program fails when it is
     /// done.
     pub(crate) fn result(&self, text: impl Display) {
         if !(self.quiet || self.json) {
@@ -141,7 +141,7 @@ impl Console {
     }
 }
 
-/// Writes to the standard error; where that fails there is nobody to tell.
+/// Writes to the standard error; if this fails, nobody can be told.
 fn complain(text: impl Display) {
     let _ = writeln!(io::stderr().lock(), "{text}");
 }

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 /// The remedy if a file of another program is in the way.
 pub(super) const ANOTHER_FOLDER: &str = "choose another folder with --out";
 
-/// What became of a results folder, as `--json` prints it.
+/// The outcome of a results folder, as `--json` prints it.
 #[derive(Serialize)]
 #[serde(tag = "outcome", rename_all = "kebab-case")]
 pub(super) enum Entry<T> {

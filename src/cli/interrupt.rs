@@ -40,7 +40,7 @@ pub(crate) fn report_too_large_files() {
     #[cfg(unix)]
     {
         let seen = std::sync::Arc::new(AtomicBool::new(false));
-        // Where this is refused the signal ends the program, as before.
+        // If this is refused, the signal ends the program, as before.
         let _ = signal_hook::flag::register(signal_hook::consts::signal::SIGXFSZ, seen);
     }
 }

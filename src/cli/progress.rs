@@ -38,7 +38,7 @@ struct State {
     done_before: u64,
     /// Work that was done now.
     run: u64,
-    /// What is going on, if that is known.
+    /// The present activity, if known.
     phase: String,
     /// When the last line was printed, in seconds since the start.
     last_line: f64,
@@ -81,7 +81,7 @@ impl<'a> Progress<'a> {
         self.show(state);
     }
 
-    /// That much of the work was done before.
+    /// The amount of work that was done before.
     pub(crate) fn skip(&self, steps: u64) {
         let mut state = self.state();
         state.work.steps_done += steps;

@@ -7,7 +7,7 @@ use phase::scene::Scene;
 use phase::store;
 use std::path::{Path, PathBuf};
 
-/// What the names of files of other programs end with.
+/// Extensions of files of other programs.
 const ENDS: [&str; 9] = [
     "dump",
     "lammpstrj",

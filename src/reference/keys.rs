@@ -116,13 +116,17 @@ fn rows(table: &KeyTable) -> String {
         return "No other keys.\n".to_owned();
     }
     let mut rows =
-        "| key | type | unit | default | description |\n|---|---|---|---|---|\n".to_owned();
+        "| key | type and unit | default | description |\n|---|---|---|---|\n".to_owned();
     for key in &table.keys {
-        let units: Vec<&str> = key.quantity.iter().flat_map(|it| it.units()).collect();
+        // The unit of a pure number is empty.
+        let units = key.quantity.iter().flat_map(|it| it.units());
+        let units: Vec<&str> = units.filter(|unit| !unit.is_empty()).collect();
         let cells = [
             format!("`{}`", key.name),
-            type_words(&key.kind),
-            units.join(", "),
+            match units.as_slice() {
+                [] => type_words(&key.kind),
+                units => format!("{} ({})", type_words(&key.kind), units.join(", ")),
+            },
             default(key),
             description(key, &units),
         ];
@@ -189,7 +193,7 @@ fn bounds(range: NumberRange) -> String {
     }
 }
 
-/// The description of a key, without the units that have a column.
+/// The description of a key, without the units, which the table has already.
 fn description(key: &TableKey, units: &[&str]) -> String {
     let text = key.description.clone().unwrap_or_default();
     units

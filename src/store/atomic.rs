@@ -112,7 +112,7 @@ pub fn check_writable(path: &Path) -> Result<(), StoreError> {
 }
 
 /// Before this process first writes to a folder: removes the temporary files that processes of this
-/// machine left there when they were killed. What cannot be removed stays, which harms nobody.
+/// machine left there when they were killed. What cannot be removed stays and does no harm.
 fn remove_those_of_the_dead(folder: &Path) {
     static CLEANED: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
     let mut cleaned = CLEANED.lock().unwrap_or_else(PoisonError::into_inner);

@@ -48,7 +48,7 @@ impl Label {
 }
 
 measures! {
-    /// What the fluid sieve says; empty on a run too short for a yes.
+    /// Evidence of the fluid sieve; empty on a run too short for a yes.
     struct FluidEvidence {
         /// Largest share of passing frames of any fluid window; frames outside the steady part
         /// count as failing.

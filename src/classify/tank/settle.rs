@@ -59,7 +59,7 @@ impl Label {
 }
 
 measures! {
-    /// What the settle sieve says.
+    /// Evidence of the settle sieve.
     struct Settling {
         /// Time from which the run counts as steady (s): the middle of the first steady window, or
         /// the beginning of the window of [steady].

@@ -327,7 +327,7 @@ impl<'a> AxisAnswer<'a> {
     }
 }
 
-/// What `--json` prints.
+/// The `--json` result.
 #[derive(Serialize)]
 struct Answer<'a> {
     file: &'a Path,

@@ -103,7 +103,7 @@ fn sweep_with_records(folder: &Folder) -> Result<Sweep, Undone> {
     }
 }
 
-/// What `--json` prints.
+/// The `--json` result.
 #[derive(Serialize)]
 struct Answer {
     folders: Vec<Entry<Summary>>,

@@ -176,10 +176,10 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     Ok(exit)
 }
 
-/// What `--json` prints.
+/// The `--json` result.
 #[derive(Serialize)]
 struct Answer {
-    /// Of several records the ones that could not be exported.
+    /// The records that could not be exported.
     failed: Vec<FailedRecord>,
 }
 

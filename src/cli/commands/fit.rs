@@ -225,7 +225,7 @@ fn scene(drainage: &MeasuredDrainage<'_>, fit: &SpotFit) -> String {
     )
 }
 
-/// What `--json` prints.
+/// The `--json` result.
 #[derive(Serialize)]
 struct Answer {
     parameters: Vec<Entry>,

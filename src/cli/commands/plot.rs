@@ -127,7 +127,7 @@ impl Arguments {
     }
 }
 
-/// What `--json` prints.
+/// The `--json` result.
 #[derive(Default, Serialize)]
 struct Answer {
     /// The figures that can be drawn, if they were asked for.

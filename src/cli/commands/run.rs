@@ -271,13 +271,13 @@ fn default_record(file: &Path) -> PathBuf {
         .with_added_extension("h5")
 }
 
-/// What `--json` prints.
+/// The `--json` result.
 #[derive(Serialize)]
 struct Answer<'a> {
     record: &'a Path,
     seed: u64,
     outcome: &'static str,
-    /// What ended an unstable run.
+    /// How an unstable run ended.
     instability: Option<&'a Instability>,
     seconds: f64,
     cpu_seconds: f64,
@@ -289,11 +289,11 @@ struct Answer<'a> {
     limit: Option<&'static str>,
     /// What happened once, and when (s), where spheres come or go.
     milestones: Vec<Milestone>,
-    /// What should have happened and did not.
+    /// Expected events that did not happen.
     unmet: Vec<String>,
     /// Time (s) and every scalar observable of the last frame, in the units of the record.
     last_frame: BTreeMap<&'a str, f64>,
-    /// Time (s) of the checkpoint that the run went on from; none if it began at its start.
+    /// Time (s) of the checkpoint from which the run continued; `None` if it began at its start.
     resumed_from: Option<f64>,
     /// Whether a job that was run again gave the bits of the sweep's record; none without one.
     same_bits: Option<bool>,
@@ -334,7 +334,7 @@ impl<'a> Answer<'a> {
     }
 }
 
-/// What a run should have done and did not.
+/// Expected events that did not happen.
 fn unmet(record: &RunRecord) -> Vec<String> {
     let scene = &record.scene;
     let happened = |kind| record.milestones.iter().any(|it| it.kind == kind);

@@ -114,7 +114,7 @@ fn describe_refined(
     lines
 }
 
-/// What `--json` prints.
+/// The `--json` result.
 #[derive(Serialize)]
 struct Answer {
     folders: Vec<Entry<FolderAnswer>>,
@@ -138,7 +138,7 @@ struct FolderAnswer {
     refined: Option<refined::Answer>,
 }
 
-/// A run that goes on from its checkpoint.
+/// A run that will continue from its checkpoint.
 #[derive(Serialize)]
 struct UnderWayAnswer {
     id: String,

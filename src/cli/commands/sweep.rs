@@ -272,7 +272,7 @@ fn jobs_made_again(folder: &Folder, sweep: &Sweep) -> Vec<Job> {
     given.into_iter().chain(jobs.unwrap_or_default()).collect()
 }
 
-/// Takes the seeds of the command line, and refines the sweep if that is asked for.
+/// Takes the seeds of the command line, and refines the sweep if requested.
 fn choose_runs(sweep: &mut Sweep, arguments: &Arguments) -> Result<(), Failure> {
     if !arguments.seed.is_empty() {
         let seeds = distinct(&arguments.seed)?;
@@ -326,7 +326,7 @@ fn tell_of_other_sweep(folder: &Folder, sweep: &Sweep, console: &Console) {
     }
 }
 
-/// What `--json` prints.
+/// The `--json` result.
 #[derive(Serialize)]
 struct Answer {
     folder: PathBuf,

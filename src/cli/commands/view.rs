@@ -122,11 +122,11 @@ enum Color {
     None,
 }
 
-/// What `--json` prints, apart from the picture's file.
+/// The `--json` result, apart from the picture's file.
 #[derive(Serialize)]
 struct Answer {}
 
-/// Panels if no times are asked for.
+/// Panels if no times are requested.
 const PANELS: usize = 5;
 /// Largest height of a picture (pixels).
 const HEIGHT: usize = 4000;
@@ -176,7 +176,7 @@ fn read(arguments: &Arguments) -> Result<Vec<RunRecord>, Failure> {
     Ok(records.collect::<Result<_, _>>()?)
 }
 
-/// What is shown of every record.
+/// The states to show of every record.
 fn runs<'a>(
     records: &'a [RunRecord],
     arguments: &Arguments,

@@ -1,4 +1,4 @@
-//! What a study of stability would run.
+//! The runs of a study of stability.
 
 use super::{Arguments, ForecastAnswer, describe_grid, effects, line, print_forecast};
 use crate::cli::console::Console;
@@ -107,7 +107,7 @@ impl Span {
     }
 }
 
-/// What `--json` prints.
+/// The `--json` result.
 #[derive(Serialize)]
 struct Answer<'a> {
     file: &'a Path,

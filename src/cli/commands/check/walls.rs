@@ -79,7 +79,7 @@ impl Walls<'_> {
     }
 }
 
-/// What `--json` prints.
+/// The `--json` result.
 #[derive(Serialize)]
 pub(super) struct Answer {
     /// Speed above which a sphere squeezes through, or breaks the overlap guard (m/s); and the

@@ -1,4 +1,4 @@
-//! What is compared: records, files of other programs, tables of earlier comparisons.
+//! Inputs of a comparison: records, files of other programs, tables of earlier comparisons.
 
 use super::table::{self, Column};
 use crate::cli::exit::Failure;

@@ -44,7 +44,7 @@ pub(super) fn drawable(path: &Path) -> Result<Vec<&'static Figure>, Failure> {
 }
 
 /// Draws figures of one record, or of several side by side: NAME.h5 gives NAME-tracks.svg and
-/// .png; several give tracks.svg and .png, in the folder of the first or that which is asked for.
+/// .png; several give tracks.svg and .png, in the folder of the first or the requested one.
 /// Gives the figures that could not be drawn, and why.
 pub(super) fn draw(
     paths: &[PathBuf],

@@ -13,11 +13,11 @@ pub(super) struct Original {
     folder: Folder,
     axes: Vec<Axis>,
     pub(super) job: Job,
-    /// What the sweep's record says, if it has one.
+    /// The sweep's record, if it has one.
     before: Option<Before>,
 }
 
-/// What a run that is made again is compared with.
+/// The earlier result with which a repeated run is compared.
 struct Before {
     digest: String,
     program: Program,

@@ -75,7 +75,7 @@ pub(super) struct Part {
     pub(super) jobs: Option<usize>,
 }
 
-/// What was run now.
+/// The runs made now.
 #[derive(Default)]
 pub(super) struct Run {
     pub(super) report: Report,

@@ -18,14 +18,14 @@ pub(super) struct Run<'a> {
     pub(super) shown: Vec<&'a Snapshot>,
     /// Time of the run (s) from which times count.
     pub(super) origin: f64,
-    /// What the picture calls it.
+    /// Its name in the picture.
     pub(super) label: Option<String>,
     /// What distinguishes it from other runs, apart from title and place in a sweep.
     pub(super) differs: Vec<String>,
 }
 
 impl Run<'_> {
-    /// What the picture calls it: its label, or title and place in a sweep.
+    /// Its name in the picture: its label, or title and place in a sweep.
     pub(super) fn names(&self) -> Vec<String> {
         if let Some(label) = &self.label {
             return vec![label.clone()];
