@@ -40,8 +40,8 @@ impl Console {
         self.verbose
     }
 
-    /// Prints a result for people. If this fails the work continues, and the program fails when it is
-    /// done.
+    /// Prints a result for people. If this fails the work continues, and the program fails when it
+    /// is done.
     pub(crate) fn result(&self, text: impl Display) {
         if !(self.quiet || self.json) {
             self.print(text);
