@@ -1,5 +1,5 @@
-//! Scenes without a tank and without an outlet, such as a box or a cradle: all that is said of
-//! their runs is whether a guard ended them.
+//! Scenes without a tank and without an outlet, such as a box or a cradle: their labels only say
+//! whether a guard ended the run.
 
 use super::{Family, Label};
 

@@ -1,5 +1,5 @@
-//! The numerical outcome of a run: stable, or how its numbers went wrong. Studies of stability
-//! judge runs so, of scenes of any family.
+//! The numerical outcome of a run: stable, or how its numbers went wrong. Studies of stability use
+//! it for scenes of any family.
 
 use super::measure::{measured, measures};
 use super::{Family, Label, Verdict};

@@ -48,7 +48,7 @@ impl Console {
         }
     }
 
-    /// Prints to the standard output. A reader that has gone away, such as `head`, is no fault.
+    /// Prints to the standard output. A reader that has ended, such as `head`, is no error.
     fn print(&self, text: impl Display) {
         let mut output = io::stdout().lock();
         match writeln!(output, "{text}").and_then(|()| output.flush()) {
@@ -94,7 +94,7 @@ impl Console {
         self.files.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Prints the result as one JSON object, if that was asked for; `docs/json.md` describes it.
+    /// Prints the result as one JSON object, if requested; `docs/json.md` describes it.
     pub(crate) fn answer(&self, answer: &impl Serialize) {
         if self.json {
             match serde_json::to_string(answer) {

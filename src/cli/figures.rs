@@ -12,8 +12,7 @@ use std::path::{Path, PathBuf};
 /// The figure of refined sweeps.
 const REFINED: &str = "refined";
 
-/// Draws what is drawn by default. Gives the figures that could not be drawn, and
-/// why.
+/// Draws the default figures. Returns the figures that could not be drawn, and why.
 pub(super) fn draw_default_figures(
     folder: &Folder,
     sweep: &Sweep,
@@ -112,7 +111,7 @@ fn images(figure: &Svg) -> Result<[(&'static str, Vec<u8>); 2], Failure> {
     ])
 }
 
-/// Writes a figure as SVG and PNG and prints their paths, and what a reader of it would miss.
+/// Writes a figure as SVG and PNG and prints their paths and the figure's warnings.
 pub(super) fn write(
     figure: &Svg,
     place: impl Fn(&str) -> PathBuf,

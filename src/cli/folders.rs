@@ -73,8 +73,8 @@ pub(super) fn go_through<T>(
 }
 
 impl<T> Entry<T> {
-    /// How the command ends after these folders; `is_whole` says of one whether nothing failed in
-    /// it.
+    /// How the command ends after these folders; `is_whole` says whether nothing failed in a
+    /// folder.
     pub(super) fn exit(entries: &[Self], is_whole: impl Fn(&T) -> bool) -> Exit {
         let failed = |entry: &Self| match entry {
             Self::Done(done) => !is_whole(done),
@@ -106,7 +106,7 @@ impl Reason {
 }
 
 /// Refuses to replace files of other programs that have these names in a folder. `remedy` says what
-/// else the user may do than move them away.
+/// the user may do instead of moving them away.
 pub(super) fn refuse_foreign(
     folder: &Path,
     names: impl IntoIterator<Item = impl AsRef<Path>>,
@@ -141,8 +141,8 @@ pub(super) fn make(folder: &Path) -> Result<(), Failure> {
     })
 }
 
-/// Refuses to write over a file that does not begin with `signature`, as far as it goes: it is
-/// something other than `kind`, which the command would write there.
+/// Refuses to replace a file that does not begin with `signature` (or its beginning): it is not of
+/// the `kind` that the command would write.
 pub(super) fn refuse_to_replace(path: &Path, kind: &str, signature: &[u8]) -> Result<(), Failure> {
     refuse_to_replace_any(path, kind, &[signature])
 }
@@ -185,7 +185,7 @@ pub(super) fn make_for(file: &Path) -> Result<(), Failure> {
 }
 
 /// Refuses a folder that holds frames of another program, or more frames than the `count` new ones
-/// would replace: nobody could tell the two exports apart.
+/// would replace: two exports would be mixed.
 pub(super) fn refuse_other_frames(
     folder: &Path,
     count: usize,

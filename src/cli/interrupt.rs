@@ -34,8 +34,8 @@ pub(crate) fn stop_on_signal(console: &Console) -> Result<&'static AtomicBool, F
     Ok(&STOP)
 }
 
-/// From now on a file that grows beyond the limit of the system (`ulimit -f`) is an error of
-/// writing, which is reported, and no signal that ends the program without a word.
+/// From now on a file that grows beyond the limit of the system (`ulimit -f`) is a reported error
+/// of writing, not a signal that ends the program silently.
 pub(crate) fn report_too_large_files() {
     #[cfg(unix)]
     {

@@ -1,4 +1,4 @@
-//! How far the work is: a bar on a terminal, otherwise a line from time to time.
+//! Progress of the work: a bar on a terminal, otherwise a line from time to time.
 
 use super::console::Console;
 use super::format;
@@ -67,12 +67,12 @@ impl<'a> Progress<'a> {
         }
     }
 
-    /// Work was done.
+    /// Adds work that was done.
     pub(crate) fn advance(&self, steps: u64) {
         self.advance_to(steps, steps, String::new());
     }
 
-    /// Work was done, `steps` of what was planned; the run is in the `phase` of that name.
+    /// Adds `done` steps of the planned work, `run` of them made now, and shows the run's `phase`.
     pub(crate) fn advance_to(&self, run: u64, done: u64, phase: String) {
         let mut state = self.state();
         state.run += run;

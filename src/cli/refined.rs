@@ -1,4 +1,4 @@
-//! How far a refined sweep is: its runs, and how well its borders are known.
+//! Progress of a refined sweep: its runs, and how well its borders are known.
 
 use super::{format, job};
 use phase::classify::Family;

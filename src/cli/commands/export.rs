@@ -79,7 +79,7 @@ enum Format {
 }
 
 impl Format {
-    /// What the file that stands for the whole is, and what it begins with, if that is always so.
+    /// The kind of the main file, and its first bytes, if they are always the same.
     fn signature(self) -> (&'static str, &'static [u8]) {
         match self {
             Self::Xyz | Self::Npy | Self::Svg => ("", b""),
@@ -190,7 +190,7 @@ struct FailedRecord {
     reason: String,
 }
 
-/// Where each record goes, or why it goes nowhere. Refuses records that would go to one place.
+/// The target of each record, or why it has none. Refuses records with the same target.
 fn targets(arguments: &Arguments) -> Result<Vec<Result<PathBuf, Failure>>, Failure> {
     let extension = arguments.to.extension();
     if let Some(out) = arguments.out.as_ref().filter(|out| !out.is_dir())
@@ -221,7 +221,7 @@ fn targets(arguments: &Arguments) -> Result<Vec<Result<PathBuf, Failure>>, Failu
     Ok(targets)
 }
 
-/// Where an export goes: the file that stands for it, or the folder of its arrays.
+/// The target of an export: its main file, or the folder of its arrays.
 fn target(arguments: &Arguments, record_path: &Path) -> Result<PathBuf, StoreError> {
     // Refuse what is no record before anything is written.
     store::read_record_header(record_path)?;
@@ -302,7 +302,7 @@ fn export(
     Ok(())
 }
 
-/// Writes states of a record; returns the files, or the folder of many, that stand for them.
+/// Writes states of a record; returns the files, or the folder that holds them.
 fn write(
     record: &RunRecord,
     states: &[&Snapshot],

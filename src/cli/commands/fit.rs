@@ -43,8 +43,8 @@ enum Model {
     Spot,
 }
 
-/// A parameter: its key in a scene, its symbol, what Rycroft, Wong and Bazant (2010) fitted to
-/// their discrete elements, in units of the spheres, and how.
+/// A parameter: its key in a scene, its symbol, the value that Rycroft, Wong and Bazant (2010)
+/// fitted to their discrete elements, in units of the spheres, and how.
 struct Parameter {
     key: &'static str,
     symbol: &'static str,

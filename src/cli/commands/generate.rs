@@ -1,4 +1,4 @@
-//! `phase generate`: what follows from the program: schemas, pages of the manual, completions.
+//! `phase generate`: schemas, pages of the reference, completions, manual pages.
 
 use crate::cli::CommandLine;
 use crate::cli::console::Console;

@@ -152,8 +152,7 @@ struct Listed {
 }
 
 impl Answer {
-    /// Prints name and description of every figure, or of those that can be drawn of what is at
-    /// `dir`.
+    /// Prints name and description of every figure, or of the figures that can be drawn from `dir`.
     fn list(&mut self, dir: Option<&Path>, console: &Console) -> Result<(), Failure> {
         let known: Vec<&Figure> = match dir {
             None => {
@@ -182,7 +181,7 @@ impl Answer {
         Ok(())
     }
 
-    /// The figures that can be drawn of the results folders at `dir`: a try succeeds.
+    /// The figures that can be drawn from the results folders at `dir`, found by drawing them.
     fn drawable(&mut self, dir: &Path, console: &Console) -> Result<Vec<&'static Figure>, Failure> {
         let of_sweeps = plot::figures().iter().filter(|figure| figure.is_of_sweep());
         let mut is_drawn: Vec<(&Figure, bool)> = of_sweeps.map(|figure| (figure, false)).collect();
@@ -250,7 +249,7 @@ impl Answer {
 }
 
 impl Listed {
-    /// Prints it, with the families of scenes that it is for if these are not known.
+    /// Prints it, with its families of scenes if the folder does not determine them.
     fn print(&self, with_families: bool, console: &Console) {
         let families = match self.families.join(", ") {
             names if with_families && !names.is_empty() => format!(" [{names}]"),
@@ -269,8 +268,8 @@ impl Listed {
     }
 }
 
-/// Names figures that could not be drawn, and why; gives the reasons. If nothing was drawn, the
-/// first of them is the failure of the whole.
+/// Reports figures that could not be drawn, and returns the reasons. If nothing was drawn, the
+/// first reason is the failure of the command.
 fn name_all(
     mut failures: Vec<Failure>,
     nothing_drawn: bool,

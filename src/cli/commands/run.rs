@@ -295,7 +295,7 @@ struct Answer<'a> {
     last_frame: BTreeMap<&'a str, f64>,
     /// Time (s) of the checkpoint from which the run continued; `None` if it began at its start.
     resumed_from: Option<f64>,
-    /// Whether a job that was run again gave the bits of the sweep's record; none without one.
+    /// Whether a job that was run again gave the bits of the sweep's record; `None` without one.
     same_bits: Option<bool>,
 }
 

@@ -155,7 +155,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     Ok(if failed { Exit::Failed } else { Exit::Done })
 }
 
-/// The results folder. Refuses one where a file of another program is in the way.
+/// The results folder. Refuses a folder in which a file of another program is in the way.
 fn folder_of(sweep: &Sweep, arguments: &Arguments) -> Result<Folder, Failure> {
     let root = arguments.out.clone();
     let mut folder = Folder::new(root.unwrap_or_else(|| default_folder(&arguments.file)));

@@ -1,4 +1,4 @@
-//! `phase verify`: runs the verification cases and says how far each is from its number.
+//! `phase verify`: runs the verification cases and compares them with their numbers.
 
 use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};

@@ -40,8 +40,8 @@ pub(super) fn read(paths: &[PathBuf], scene: Option<&Path>) -> Result<Vec<Input>
     Ok(inputs)
 }
 
-/// The numbers of all inputs, one column for each record: of drainages what is measured of their
-/// states within `times`, of other runs what their sieves measure.
+/// The numbers of all inputs, one column for each record: for drainages measurements on their
+/// states within `times`, for other runs the measures of their sieves.
 pub(super) fn columns(inputs: &[Input], times: Option<[f64; 2]>) -> Result<Vec<Column>, Failure> {
     let of_runs = inputs.iter().filter_map(|input| match input {
         Input::Run(path, record) => Some((path, &**record)),

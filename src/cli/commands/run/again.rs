@@ -107,8 +107,7 @@ impl Original {
         self.folder.record(&self.job.id)
     }
 
-    /// Refuses to write over the record of the sweep, which would then have another output than
-    /// the sweep asks for.
+    /// Refuses to replace the record of the sweep, whose output would then differ from the sweep's.
     pub(super) fn refuse_to_replace(&self, path: &Path) -> Result<(), Failure> {
         let same = |a: &Path, b: &Path| {
             let (a, b) = (a.canonicalize(), b.canonicalize());
@@ -123,7 +122,7 @@ impl Original {
         Ok(())
     }
 
-    /// Makes sure that a run gave the same bits as in the sweep. None if the sweep has no record of
+    /// Checks that a run gave the same bits as in the sweep. `None` if the sweep has no record of
     /// it.
     pub(super) fn compare(
         &self,

@@ -22,8 +22,8 @@ pub(super) struct Ran {
     pub(super) resumed_from: Option<f64>,
 }
 
-/// Runs a scene on that many threads, with a progress bar and checkpoints. None if it was
-/// interrupted: says how to continue.
+/// Runs a scene on this number of threads, with a progress bar and checkpoints. If it is
+/// interrupted, says how to continue and returns `None`.
 pub(super) fn run(
     scene: &Scene,
     threads: usize,
@@ -99,7 +99,7 @@ pub(super) fn run(
     Ok(None)
 }
 
-/// Takes a run to its checkpoint, if requested and there is one, and says where it begins.
+/// Continues a run from its checkpoint, if requested and present, and says where it begins.
 fn begin(
     run: &mut Run,
     checkpoints: &Checkpoints,

@@ -162,7 +162,7 @@ impl<'a> Sheets<'a> {
         self.sheets[0].picture(panels)
     }
 
-    /// One run has its title above all panels, of several each panel says which it is of.
+    /// A single run has its title above all panels; with several runs each panel names its own.
     fn caption(&self, run: &Run<'_>, state: &Snapshot) -> Vec<String> {
         let time = words::caption(run.record, state, run.origin);
         if self.runs.len() == 1 {
@@ -192,7 +192,7 @@ pub(super) fn on_all_cores<T: Sync, U: Send + Sync>(
     Ok(work::map(work::default_workers(), items, draw)?)
 }
 
-/// Ends of what is seen along x and z (m), if the command line says them.
+/// Ends of the visible region along x and z (m), if the command line gives them.
 fn window(numbers: &[f64]) -> Result<Option<[[f64; 2]; 2]>, Failure> {
     match *numbers {
         [] => Ok(None),
