@@ -177,19 +177,16 @@ fn type_words(kind: &ValueKind) -> String {
 
 /// The bounds of a number, to follow the word.
 fn bounds(range: NumberRange) -> String {
-    let low = match range.low_allowed {
-        true => format!(" ≥ {}", number(range.low)),
-        false => format!(" > {}", number(range.low)),
-    };
-    let high = format!("≤ {}", number(range.high));
-    match (
-        range.low > -NumberRange::HUGE,
-        range.high < NumberRange::HUGE,
-    ) {
-        (false, false) => String::new(),
-        (true, false) => low,
-        (false, true) => format!(" {high}"),
-        (true, true) => format!("{low}, {high}"),
+    let (low, high) = (number(range.low), number(range.high));
+    let has_low = range.low > -NumberRange::HUGE;
+    let has_high = range.high < NumberRange::HUGE;
+    match (has_low, has_high, range.low_allowed) {
+        (false, false, _) => String::new(),
+        (false, true, _) => format!(" ≤ {high}"),
+        (true, false, true) => format!(" ≥ {low}"),
+        (true, false, false) => format!(" > {low}"),
+        (true, true, true) => format!(", {low} to {high}"),
+        (true, true, false) => format!(" > {low}, ≤ {high}"),
     }
 }
 

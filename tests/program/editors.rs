@@ -41,8 +41,8 @@ fn the_reference_tells_type_unit_default_and_description() {
     let page = Workplace::new()
         .phase(&["generate", "reference", "keys"])
         .code(0);
-    page.says("| `density` | number ≥ 1e-9, ≤ 1e15 (kg/m³, kg/m²) | *needed* | Density rho")
-        .says("| `dt` | number ≥ 1e-15, ≤ 1e15 or \"auto\" (s) | *needed* | Time step dt;")
+    page.says("| `density` | number, 1e-9 to 1e15 (kg/m³, kg/m²) | *needed* | Density rho")
+        .says("| `dt` | number, 1e-15 to 1e15 or \"auto\" (s) | *needed* | Time step dt;")
         .says("| `overlap` | number > 0 | `1.5` | Largest overlap")
         .says("| `window` | number > 0 (s) | `0.5` | Window. |")
         .says("### `[friction]` with `law = \"mindlin\"`")
