@@ -70,9 +70,9 @@ impl KeysPage {
             // A scene within a sweep has a separate chapter.
             ValueKind::Either(_) if path == "scene" => {}
             ValueKind::Either(kinds) => {
-                kinds
-                    .iter()
-                    .for_each(|kind| self.tables(path, description, kind));
+                for kind in kinds {
+                    self.tables(path, description, kind);
+                }
             }
             ValueKind::Text
             | ValueKind::Flag
