@@ -22,7 +22,7 @@ pub struct RunRecord {
     pub milestones: Vec<Milestone>,
     /// Observables of every frame.
     pub observations: Observations,
-    /// All spheres now and then; the last one is the end of the run.
+    /// All spheres at the times of snapshots; the last one is the end of the run.
     pub snapshots: Vec<Snapshot>,
     /// All spheres at every frame, if the scene's output asks for it; else empty.
     pub trajectory: Vec<Snapshot>,
@@ -37,7 +37,7 @@ pub struct RunRecord {
 pub enum States<'a> {
     /// At every frame.
     Trajectory(&'a [Snapshot]),
-    /// Now and then.
+    /// At the times of snapshots.
     Snapshots(&'a [Snapshot]),
 }
 

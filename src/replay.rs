@@ -46,7 +46,7 @@ pub enum ReplayError {
 /// The record of a run of `scene` with these positions and energies: frames x n x 4 of x, y, z (m)
 /// and the translational, rotational and gravitational energy (J) of every sphere.
 ///
-/// Observables that depend only on positions are those of the original run: heights, profile, hole,
+/// Observables that depend only on positions equal the original run's: heights, profile, hole,
 /// rising spheres, gravitational energy. For the others:
 ///
 /// * `kinetic` holds the translational and the rotational energy, which a dump does not separate,

@@ -1,8 +1,8 @@
-//! Runs that leave checkpoints, and go on from them.
+//! Runs that write checkpoints, and continue from them.
 //!
-//! A checkpoint lies beside the record that is to be, and goes when the record is there. Frames are
-//! the only places where one is written, and writing it changes nothing: a run that was interrupted
-//! and went on has the bits of one that was not.
+//! A checkpoint lies next to the future record, and is removed when the record is written. It is
+//! written at frames only, and changes nothing: an interrupted run that is continued has the same
+//! bits as an uninterrupted one.
 
 use crate::record::RunRecord;
 use crate::run::{Progress, Run};
@@ -59,10 +59,10 @@ impl Checkpoints {
         self.interval
     }
 
-    /// Lets a run that is at its start go on from the checkpoint. False if there is none.
+    /// Continues a run that is at its start from the checkpoint. False if there is none.
     ///
     /// # Errors
-    /// If nothing can go on from the file; file and run stay as they were.
+    /// If no run can continue from the file; file and run stay as they were.
     pub fn restore(&self, run: &mut Run) -> Result<bool, CheckpointError> {
         let Some(checkpoint) = store::read_checkpoint(&self.path, run.scene())? else {
             return Ok(false);
@@ -77,9 +77,9 @@ impl Checkpoints {
         }
     }
 
-    /// Runs to the end, and leaves checkpoints on the way. `control` is asked after every frame
-    /// whether to go on; `warn` is told of a checkpoint that could not be written, without which
-    /// the run goes on.
+    /// Runs to the end, and leaves checkpoints on the way. `control` decides after every frame
+    /// whether to go on; `warn` reports a checkpoint that could not be written, without which the
+    /// run goes on.
     ///
     /// A run from the start replaces the checkpoint of an earlier run, but not before the first one
     /// is due: who started it by mistake may stop it and loses nothing.

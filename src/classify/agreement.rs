@@ -8,8 +8,8 @@ use std::collections::HashMap;
 /// point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Agreement {
-    /// Whether runs of the same point and seed are paired; else points, whose label is that of most
-    /// of their seeds, and whose measures are means over them.
+    /// Whether runs of the same point and seed are paired; else points, by the label of most of
+    /// their seeds and the means of their measures.
     pub by_runs: bool,
     /// Number of pairs.
     pub pairs: usize,
@@ -43,10 +43,10 @@ struct Compared {
 type PairKey = Vec<u64>;
 
 impl Agreement {
-    /// Of two tables.
+    /// The agreement of two tables.
     ///
     /// # Errors
-    /// What the tables differ in: families of scenes, axes, or all points.
+    /// If the tables differ in their families of scenes, their axes, or all points.
     pub fn of(one: &LabelTable, other: &LabelTable) -> Result<Self, String> {
         if one.family != other.family {
             let names = [one.family.name, other.family.name];

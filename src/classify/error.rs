@@ -55,7 +55,7 @@ pub enum ClassifyError {
         sieve: &'static str,
         /// Its window (s).
         window: f64,
-        /// That of the scene's steady part (s).
+        /// Window of the scene's steady part (s).
         steady: f64,
     },
     /// The parts of a record contradict each other.

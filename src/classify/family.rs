@@ -21,7 +21,7 @@ pub struct Family {
     pub sieves: &'static [SieveOfFamily],
     /// The labels that no sieve gives.
     pub(super) without_sieve: &'static [Label],
-    /// What is measured of its runs besides.
+    /// Further measures of its runs.
     pub(super) order: &'static [Measure],
     /// Names of the figures that say most of a sweep.
     pub default_figures: &'static [&'static str],
@@ -63,7 +63,7 @@ impl Family {
         self.labels().into_iter().find(|label| label.name == name)
     }
 
-    /// What is measured of its runs, in the order of the columns.
+    /// The measures of its runs, in the order of the columns.
     pub fn measures(&self) -> impl Iterator<Item = &'static Measure> + use<> {
         let of_sieves = self.sieves.iter().flat_map(|sieve| sieve.measures);
         of_sieves.chain(self.order)

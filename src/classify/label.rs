@@ -4,10 +4,10 @@ use crate::color;
 use serde::{Serialize, Serializer};
 use std::fmt;
 
-/// The state of a run. Those of a family are declared with its sieves; these two are of all.
+/// The state of a run. A family's labels are declared with its sieves; these two belong to all.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Label {
-    /// Number of the state, of which no two labels have the same: that of the thesis for a tank.
+    /// Number of the state, unique among labels; for a tank the thesis's number.
     pub code: i8,
     /// Name, as in tables.
     pub name: &'static str,

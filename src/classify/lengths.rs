@@ -1,4 +1,4 @@
-//! Whether a record is one that sieves can read.
+//! Whether sieves can read a record.
 
 use super::ClassifyError;
 use crate::record::RunRecord;

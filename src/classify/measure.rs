@@ -1,9 +1,9 @@
-//! What is measured of a run besides its label: columns of `labels.csv`, and maps.
+//! Measures of a run: columns of `labels.csv`, and maps.
 
-/// A number that is measured of a run besides its label.
+/// A measure of a run, a number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measure {
-    /// Name, as of its column in `labels.csv`; that of its map has dashes.
+    /// Name of its column in `labels.csv`; its map has dashes in place of underscores.
     pub name: &'static str,
     /// What it is, in full.
     pub description: &'static str,

@@ -1,10 +1,10 @@
-//! Scenes without a tank and without an outlet, such as a box or a cradle: all that is said of
-//! their runs is whether a guard ended them.
+//! Scenes without a tank and without an outlet, such as a box or a cradle: their labels only say
+//! whether a guard ended the run.
 
 use super::{Family, Label};
 
 impl Label {
-    /// No guard ended the run, of which no sieve says more.
+    /// No guard ended the run, and there are no sieves.
     pub const STABLE: Self = Self::new(9, "stable", 0xe6_e2_f7);
 }
 

@@ -1,5 +1,5 @@
-//! What became of a run numerically: stable, or how its numbers went wrong. Studies of stability
-//! judge runs so, of scenes of any family.
+//! The numerical outcome of a run: stable, or how its numbers went wrong. Studies of stability use
+//! it for scenes of any family.
 
 use super::measure::{measured, measures};
 use super::{Family, Label, Verdict};
@@ -40,7 +40,7 @@ pub static NUMERICS: Family = Family {
 pub const ENERGY_GAIN: f64 = 0.05;
 
 measures! {
-    /// What is measured of the numerics of a run.
+    /// Measures of the numerics of a run.
     struct Numbers {
         /// Time step.
         time_step: measured("time step", "s"),

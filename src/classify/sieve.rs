@@ -1,4 +1,4 @@
-//! What a sieve is, and how its family knows it.
+//! The trait of sieves, and how a family calls them.
 
 use super::{ClassifyError, Label, Measure, Sieves};
 use crate::scene::Scene;
@@ -26,7 +26,7 @@ pub(super) trait Sieve {
     fn sift(&self, run: &mut Self::Run<'_>) -> Sifted;
 }
 
-/// What a sieve says of a run.
+/// The evidence of a sieve for a run.
 pub(super) struct Sifted {
     /// The label that it gives, if its answer is yes.
     pub(super) label: Option<Label>,

@@ -33,7 +33,7 @@ macro_rules! sieves {
             $($(#[$about:meta])+ $name:ident: $Sieve:ident,)+
         }
     )+) => {
-        /// Thresholds of all sieves; every default of a tank's is that of the thesis's listing.
+        /// Thresholds of all sieves; the defaults for a tank are from the thesis's listing.
         #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
         #[serde(deny_unknown_fields, default)]
         pub struct Sieves {
@@ -91,8 +91,8 @@ sieves! {
 }
 
 impl Sieves {
-    /// Whether these sieves can judge runs of this scene, which needs no run to tell. Those of
-    /// other families do not matter.
+    /// Whether these sieves can judge runs of this scene, as far as this is known before a run.
+    /// Sieves of other families do not matter.
     ///
     /// # Errors
     /// A threshold is out of range; a tank has no gravity to measure energy by, or does not count
@@ -106,7 +106,7 @@ impl Sieves {
     }
 
     /// Sieves whose windows (s) are longer than a run of this scene, by their names: it can have
-    /// none of their labels. Those of a silo take what there is of a window.
+    /// none of their labels. A silo's sieves shorten their windows instead.
     pub fn without_room(&self, scene: &Scene) -> Vec<(&'static str, f64)> {
         let windows = Family::of(scene).windows(self);
         windows

@@ -25,7 +25,7 @@ pub struct LabelRow {
     pub values: Vec<f64>,
     /// Seed.
     pub seed: u64,
-    /// What the sieves say.
+    /// The evidence of the sieves.
     pub verdict: Verdict,
 }
 

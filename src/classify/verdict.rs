@@ -1,9 +1,9 @@
-//! What the sieves say of one run.
+//! The evidence of all sieves for one run.
 
 use super::{ClassifyError, Family, Label, Sieves};
 use crate::record::{Outcome, RunRecord};
 
-/// What the sieves say of one run.
+/// The evidence of all sieves for one run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Verdict {
     /// The label.

@@ -1,4 +1,4 @@
-//! What the program says: results to the standard output, everything else to the standard error.
+//! Output of the program: results to the standard output, everything else to the standard error.
 
 use super::exit::Failure;
 use serde::Serialize;
@@ -7,7 +7,7 @@ use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// Where the program speaks, and how much.
+/// Where the program writes, and how much.
 pub(crate) struct Console {
     quiet: bool,
     verbose: bool,
@@ -40,15 +40,15 @@ impl Console {
         self.verbose
     }
 
-    /// Prints a result for people. If that fails the work goes on, and the program fails when it is
-    /// done.
+    /// Prints a result for people. If this fails the work continues, and the program fails when it
+    /// is done.
     pub(crate) fn result(&self, text: impl Display) {
         if !(self.quiet || self.json) {
             self.print(text);
         }
     }
 
-    /// Prints to the standard output. A reader that has gone away, such as `head`, is no fault.
+    /// Prints to the standard output. A reader that has ended, such as `head`, is no error.
     fn print(&self, text: impl Display) {
         let mut output = io::stdout().lock();
         match writeln!(output, "{text}").and_then(|()| output.flush()) {
@@ -94,7 +94,7 @@ impl Console {
         self.files.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Prints the result as one JSON object, if that was asked for; `docs/json.md` describes it.
+    /// Prints the result as one JSON object, if requested; `docs/json.md` describes it.
     pub(crate) fn answer(&self, answer: &impl Serialize) {
         if self.json {
             match serde_json::to_string(answer) {
@@ -141,7 +141,7 @@ impl Console {
     }
 }
 
-/// Writes to the standard error; where that fails there is nobody to tell.
+/// Writes to the standard error; if this fails, nobody can be told.
 fn complain(text: impl Display) {
     let _ = writeln!(io::stderr().lock(), "{text}");
 }

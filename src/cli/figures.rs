@@ -12,8 +12,7 @@ use std::path::{Path, PathBuf};
 /// The figure of refined sweeps.
 const REFINED: &str = "refined";
 
-/// Draws what is drawn if nothing else is asked for. Gives the figures that could not be drawn, and
-/// why.
+/// Draws the default figures. Returns the figures that could not be drawn, and why.
 pub(super) fn draw_default_figures(
     folder: &Folder,
     sweep: &Sweep,
@@ -35,7 +34,7 @@ pub(super) fn draw_default_figures(
     problems.inspect(|problem| console.error(problem)).collect()
 }
 
-/// The figures that are drawn if none are asked for.
+/// The figures that are drawn if none is requested.
 pub(super) fn default_figures(
     sweep: &Sweep,
     table: &LabelTable,
@@ -70,7 +69,7 @@ pub(super) fn draw_round(
     Ok(())
 }
 
-/// Draws a figure, of points and times if they are asked for, writes it to the folder `place` as
+/// Draws a figure, of points and times if requested, writes it to the folder `place` as
 /// SVG and PNG and prints their paths.
 pub(super) fn draw(
     name: &str,
@@ -85,7 +84,7 @@ pub(super) fn draw(
     write(&figure, file, console)
 }
 
-/// A figure of a folder, of points and times if they are asked for.
+/// A figure of a folder, of points and times if requested.
 pub(super) fn drawn(
     name: &str,
     (folder, sweep, table): (&Folder, &Sweep, &LabelTable),
@@ -112,7 +111,7 @@ fn images(figure: &Svg) -> Result<[(&'static str, Vec<u8>); 2], Failure> {
     ])
 }
 
-/// Writes a figure as SVG and PNG and prints their paths, and what a reader of it would miss.
+/// Writes a figure as SVG and PNG and prints their paths and the figure's warnings.
 pub(super) fn write(
     figure: &Svg,
     place: impl Fn(&str) -> PathBuf,

@@ -17,7 +17,7 @@ pub(super) fn default_folder(file: &Path) -> PathBuf {
     Path::new("results").join(file.file_stem().unwrap_or("sweep".as_ref()))
 }
 
-/// What became of a results folder, as `--json` prints it.
+/// The outcome of a results folder, as `--json` prints it.
 #[derive(Serialize)]
 #[serde(tag = "outcome", rename_all = "kebab-case")]
 pub(super) enum Entry<T> {
@@ -86,8 +86,8 @@ pub(super) fn go_through<T>(
 }
 
 impl<T> Entry<T> {
-    /// How the command ends after these folders; `is_whole` says of one whether nothing failed in
-    /// it.
+    /// How the command ends after these folders; `is_whole` says whether nothing failed in a
+    /// folder.
     pub(super) fn exit(entries: &[Self], is_whole: impl Fn(&T) -> bool) -> Exit {
         let failed = |entry: &Self| match entry {
             Self::Done(done) => !is_whole(done),
@@ -119,7 +119,7 @@ impl Reason {
 }
 
 /// Refuses to replace files of other programs that have these names in a folder. `remedy` says what
-/// else the user may do than move them away.
+/// the user may do instead of moving them away.
 pub(super) fn refuse_foreign(
     folder: &Path,
     names: impl IntoIterator<Item = impl AsRef<Path>>,
@@ -147,15 +147,15 @@ pub(super) fn files_of_figures(
     names.into_iter().flat_map(move |name| files(name.as_ref()))
 }
 
-/// Makes a folder and those above it, unless they are there.
+/// Makes a folder and its parents, unless they exist.
 pub(super) fn make(folder: &Path) -> Result<(), Failure> {
     std::fs::create_dir_all(folder).map_err(|error| {
         Failure::failed(format_args!("{error}{}", store::advice(&error))).at(folder)
     })
 }
 
-/// Refuses to write over a file that does not begin with `signature`, as far as it goes: it is
-/// something other than `kind`, which the command would write there.
+/// Refuses to replace a file that does not begin with `signature` (or its beginning): it is not of
+/// the `kind` that the command would write.
 pub(super) fn refuse_to_replace(path: &Path, kind: &str, signature: &[u8]) -> Result<(), Failure> {
     refuse_to_replace_any(path, kind, &[signature])
 }
@@ -198,7 +198,7 @@ pub(super) fn make_for(file: &Path) -> Result<(), Failure> {
 }
 
 /// Refuses a folder that holds frames of another program, or more frames than the `count` new ones
-/// would replace: nobody could tell the two exports apart.
+/// would replace: two exports would be mixed.
 pub(super) fn refuse_other_frames(
     folder: &Path,
     count: usize,

@@ -1,4 +1,4 @@
-//! What the runs of a study will cost.
+//! The cost of the runs of a study.
 
 use super::exit::Failure;
 use phase::cost::{Forecast, Leaves, forecast};
@@ -7,7 +7,7 @@ use phase::sweep::Job;
 use std::collections::HashSet;
 use std::time::Duration;
 
-/// What the settings of a comparison will cost, each from a short trial of its own.
+/// The cost of the settings of a comparison, each from a short trial.
 pub(super) fn of_settings(
     comparison: &Comparison,
     workers: usize,

@@ -34,13 +34,13 @@ pub(crate) fn stop_on_signal(console: &Console) -> Result<&'static AtomicBool, F
     Ok(&STOP)
 }
 
-/// From now on a file that grows beyond the limit of the system (`ulimit -f`) is an error of
-/// writing, which is reported, and no signal that ends the program without a word.
+/// From now on a file that grows beyond the limit of the system (`ulimit -f`) is a reported error
+/// of writing, not a signal that ends the program silently.
 pub(crate) fn report_too_large_files() {
     #[cfg(unix)]
     {
         let seen = std::sync::Arc::new(AtomicBool::new(false));
-        // Where this is refused the signal ends the program, as before.
+        // If this is refused, the signal ends the program, as before.
         let _ = signal_hook::flag::register(signal_hook::consts::signal::SIGXFSZ, seen);
     }
 }

@@ -224,8 +224,8 @@ fn list(changes: &BTreeMap<(Label, Label), usize>) -> Vec<Change> {
     changes.iter().map(change).collect()
 }
 
-/// How many labels of the runs that had one changed, and from what to what; and how many runs had
-/// none, have none, and are not of the sweep any more.
+/// How many labels changed, and from what to what; and how many runs had no label, have none now,
+/// or no longer belong to the sweep.
 fn describe_changes(changes: &[Change], runs: usize, [new, lost, unused]: [usize; 3]) -> String {
     let changed: usize = changes.iter().map(|change| change.runs).sum();
     let mut text = format!("{changed} of {} changed", format::count(runs, "label"));

@@ -78,8 +78,8 @@ fn parse() -> CommandLine {
     parsed.unwrap_or_else(|error| error.exit())
 }
 
-/// Refuses `--json` of a command that has no result for programs, and where an argument has no
-/// place in JSON.
+/// Refuses `--json` for commands without a result for programs, and with arguments that JSON cannot
+/// hold.
 fn check_json(command: &Command) -> Result<(), Failure> {
     if !command.has_answer() {
         return Err(Failure::refused(

@@ -1,4 +1,4 @@
-//! How far the work is: a bar on a terminal, otherwise a line from time to time.
+//! Progress of the work: a bar on a terminal, otherwise a line from time to time.
 
 use super::console::Console;
 use super::format;
@@ -38,7 +38,7 @@ struct State {
     done_before: u64,
     /// Work that was done now.
     run: u64,
-    /// What is going on, if that is known.
+    /// The present activity, if known.
     phase: String,
     /// When the last line was printed, in seconds since the start.
     last_line: f64,
@@ -67,12 +67,12 @@ impl<'a> Progress<'a> {
         }
     }
 
-    /// Work was done.
+    /// Adds work that was done.
     pub(crate) fn advance(&self, steps: u64) {
         self.advance_to(steps, steps, String::new());
     }
 
-    /// Work was done, `steps` of what was planned; the run is in the `phase` of that name.
+    /// Adds `done` steps of the planned work, `run` of them made now, and shows the run's `phase`.
     pub(crate) fn advance_to(&self, run: u64, done: u64, phase: String) {
         let mut state = self.state();
         state.run += run;
@@ -81,7 +81,7 @@ impl<'a> Progress<'a> {
         self.show(state);
     }
 
-    /// That much of the work was done before.
+    /// The amount of work that was done before.
     pub(crate) fn skip(&self, steps: u64) {
         let mut state = self.state();
         state.work.steps_done += steps;

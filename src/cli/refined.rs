@@ -1,4 +1,4 @@
-//! How far a refined sweep is: its runs, and how well its borders are known.
+//! Progress of a refined sweep: its runs, and how well its borders are known.
 
 use super::{format, job};
 use phase::classify::Family;
@@ -8,12 +8,12 @@ use serde::Serialize;
 use serde_json::Value;
 use std::collections::BTreeMap;
 
-/// What `--json` prints of a refined sweep.
+/// The `--json` result of a refined sweep.
 #[derive(Serialize)]
 pub(super) struct Answer {
     runs: usize,
     budget: usize,
-    /// Why refining ended; `None` while it goes on.
+    /// Why refining ended; `None` while it continues.
     end: Option<Finish>,
     borders: Vec<Border>,
 }
@@ -112,7 +112,7 @@ pub(super) fn describe_end(settings: &Settings, end: Finish) -> String {
     }
 }
 
-/// What the runs may have missed.
+/// The regions that the runs may have missed.
 pub(super) fn describe_gap(sweep: &Sweep, gap: &Gap) -> String {
     let point: BTreeMap<String, Value> = job::point(&sweep.axes, &gap.values);
     let point = point

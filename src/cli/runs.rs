@@ -7,7 +7,7 @@ use phase::scene::Scene;
 use phase::store;
 use std::path::{Path, PathBuf};
 
-/// What the names of files of other programs end with.
+/// Extensions of files of other programs.
 const ENDS: [&str; 9] = [
     "dump",
     "lammpstrj",
@@ -26,8 +26,8 @@ fn is_of_another_program(path: &Path) -> bool {
     ENDS.contains(&end.to_ascii_lowercase().as_str())
 }
 
-/// Reads records and files of other programs. The latter take the scene that is given, or that of
-/// the first record.
+/// Reads records and files of other programs. The latter take the given scene, or else the first
+/// record's.
 pub(super) fn read(paths: &[PathBuf], scene: Option<&Path>) -> Result<Vec<RunRecord>, Failure> {
     if let Some(unused) = scene
         && !paths.iter().any(|path| is_of_another_program(path))

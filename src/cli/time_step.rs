@@ -139,7 +139,7 @@ fn kind_of(limit: &Limit) -> &'static str {
     }
 }
 
-/// The steps that were chosen where the scene says `dt = "auto"`, and from which limits.
+/// The steps chosen for `dt = "auto"`, and the limits that decided.
 pub(super) fn describe_choice(sweep: &Sweep, jobs: &[Job]) -> Option<String> {
     sweep.scene.time.safety_factor?;
     let steps = jobs.iter().map(|job| job.scene.time.dt);

@@ -1,4 +1,4 @@
-//! What is measured of the record of a drainage.
+//! Measurements on the record of a drainage.
 
 use crate::measure::FilledBox;
 use crate::observe::Snapshot;
@@ -8,8 +8,7 @@ use crate::simulation::MilestoneKind;
 
 /// Share of the drainage by which a time may be off: rounding.
 const ROUNDING: f64 = 1e-9;
-/// Share of the run at its start that is left out, where nothing else is asked for: the flow has to
-/// develop.
+/// Share of the run at its start that is left out by default: the flow has to develop.
 const BEGINNING: f64 = 0.2;
 
 /// A drainage: its record, its box, and the times that count.
@@ -63,7 +62,7 @@ impl<'a> MeasuredDrainage<'a> {
         };
         match drainage.flow().is_empty() {
             true => Err(
-                "a state within the times that are asked for, since the opening; give \
+                "a state within the requested times, since the opening; give \
                          `--times` within those that `output.snapshot_interval` has kept",
             ),
             false => Ok(drainage),

@@ -49,7 +49,7 @@ pub struct SpotFit {
 }
 
 impl SpotFit {
-    /// Of a drainage.
+    /// The parameters of a drainage.
     ///
     /// # Errors
     /// What the record does not show.

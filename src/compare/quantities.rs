@@ -131,8 +131,8 @@ pub static QUANTITIES: [DrainageQuantity; 16] = [
     },
 ];
 
-/// Most states of which the packing is measured: more tell little more, as neighbours in time are
-/// alike.
+/// Largest number of states on which the packing is measured: more add little, as states close in
+/// time are alike.
 const STATES: usize = 10;
 /// Largest distance of a neighbour, in diameters.
 const BOND: f64 = 1.3;

@@ -1,7 +1,7 @@
 //! The same drainage by simpler models: voids on a lattice, and the kinematic flow.
 //!
 //! Both are plane. Their grains start on one triangular lattice that fills the width and height of
-//! the box. At any time the same share of grains has left as of the spheres of the record.
+//! the box. At any time equal shares of grains and of the record's spheres have left.
 
 use super::quantities::{layers, mixing_of};
 use super::{MeasuredDrainage, flow_spread_of};

@@ -9,18 +9,18 @@ use crate::statistics::Estimate;
 pub struct Spreading {
     /// Mean distance dropped (m), and mean square displacement (m2) along x and along z.
     pub points: Vec<[f64; 3]>,
-    /// Peclet numbers V d / D along x and along z, of the longest way of which there are enough.
+    /// Peclet numbers V d / D along x and along z, at the longest distance with enough data.
     pub peclet: Option<[Estimate; 2]>,
 }
 
-/// Intervals between snapshots, of which each gives a point.
+/// Intervals between snapshots; each gives a point.
 const LAGS: [usize; 8] = [1, 2, 3, 5, 8, 12, 18, 27];
 /// Fewest pairs of snapshots of a point, and of a Peclet number.
 const FEWEST: [usize; 2] = [3, 8];
 /// Width of the cells in which the mean flow is linear, in diameters.
 const CELL: f64 = 2.0;
 
-/// Of the spheres that start in the middle 40 % of the width, at 30 to 80 % of the height.
+/// From the spheres that start in the middle 40 % of the width, at 30 to 80 % of the height.
 pub fn spreading(drainage: &MeasuredDrainage<'_>) -> Spreading {
     let diameter = drainage.filled_box.diameter;
     let region = drainage.filled_box.part(0.4, [0.3, 0.8]);

@@ -1,4 +1,4 @@
-//! What a sweep will cost, from a short trial of a few of its jobs.
+//! The cost of a sweep, from a short trial of a few of its jobs.
 
 use super::representatives::{Representative, representatives};
 use super::{CostError, RECORD, RunCost, START};
@@ -11,7 +11,7 @@ use serde::Serialize;
 use std::ops::ControlFlow;
 use std::time::Duration;
 
-/// What a sweep will cost.
+/// The cost of a sweep.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Forecast {
     /// Number of jobs that were tried.

@@ -1,4 +1,4 @@
-//! What a step costs, measured.
+//! Measured costs of steps and runs.
 //!
 //! Times are processor times of the calling thread, and things to compare are measured in turn, so
 //! that what else the machine does hits all of them alike. Ratios mean something on any machine,

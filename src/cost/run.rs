@@ -1,4 +1,4 @@
-//! What a run costs, and what each of its parts does.
+//! The cost of a run and of each of its parts.
 
 use crate::cpu_time;
 use crate::record::RunRecord;
@@ -24,7 +24,7 @@ pub enum CostError {
 
 crate::refusal::always!(false: CostError);
 
-/// What a part of a run costs.
+/// The cost of a part of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PartCost {
     /// Its name in tables.
@@ -46,10 +46,10 @@ pub const RECORD: &str = "record";
 /// Name of the part that places the spheres and makes all that the first step needs.
 pub const START: &str = "start";
 
-/// What a run costs, from itself or from its first part.
+/// The cost of a run, measured on the whole or on its first part.
 #[derive(Clone, Debug)]
 pub struct RunCost {
-    /// What each part costs: the parts of the model's step, then observers, record and start.
+    /// The cost of each part: the parts of the model's step, then observers, record and start.
     pub parts: Vec<PartCost>,
     /// Time of day that its frames took (s): all but start and record.
     pub elapsed: f64,
@@ -61,7 +61,7 @@ pub struct RunCost {
     pub all_work: u64,
     /// Whether the run came to its end.
     pub whole: bool,
-    /// What was run.
+    /// The record of the part that was run.
     pub record: RunRecord,
 }
 
@@ -78,7 +78,7 @@ impl RunCost {
     /// The same with a model of the caller's.
     ///
     /// # Errors
-    /// Those of [`measure`](Self::measure).
+    /// As for [`measure`](Self::measure).
     pub fn measure_model(
         model: &dyn Model,
         scene: &Scene,
@@ -143,7 +143,7 @@ impl RunCost {
         part.map_or(0.0, |part| part.seconds)
     }
 
-    /// Processor time of a part of the whole run (s), if it goes on as it began.
+    /// Processor time of a part of the whole run (s), if it continues as it began.
     pub fn all_seconds(&self, part: &PartCost) -> f64 {
         match part.is_once {
             true => part.seconds,
@@ -157,7 +157,7 @@ impl RunCost {
     }
 }
 
-/// What the parts of the steps cost, in all of which the run was for so long (s).
+/// The costs of the parts of the steps, which took this long in total (s).
 fn parts_of_steps(
     parts: Vec<PartOfStep>,
     profile: Option<&Profile>,

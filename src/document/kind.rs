@@ -8,11 +8,11 @@ use serde_json::Value;
 pub(crate) struct TableKey {
     pub(crate) name: String,
     pub(crate) kind: ValueKind,
-    /// Whether it must be there.
+    /// Whether it is required.
     pub(crate) needed: bool,
     /// What it means, one paragraph per line.
     pub(crate) description: Option<String>,
-    /// The value that holds if it is left out.
+    /// Its default value.
     pub(crate) default: Option<Value>,
     /// What it measures, if it holds numbers.
     pub(crate) quantity: Option<KeyQuantity>,

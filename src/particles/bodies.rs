@@ -30,13 +30,13 @@ pub(crate) struct Bodies {
     pub(crate) count: usize,
     /// Forces so far (N).
     pub(crate) force: VectorColumns,
-    /// Centres (m), if they are asked for.
+    /// Centres (m), if requested.
     pub(crate) position: VectorColumns,
-    /// Velocities (m/s), if they are asked for.
+    /// Velocities (m/s), if requested.
     pub(crate) velocity: VectorColumns,
-    /// Spins (rad/s), if they are asked for.
+    /// Spins (rad/s), if requested.
     pub(crate) spin: VectorColumns,
-    /// Torques so far (N m), if they are asked for.
+    /// Torques so far (N m), if requested.
     pub(crate) torque: VectorColumns,
     /// Masses (kg).
     pub(crate) mass: BlockColumn,

@@ -1,20 +1,26 @@
 //! The page of all keys.
 
 use super::InputFile;
-use crate::document::kind::{KeyTable, TableKey, ValueKind};
+use crate::document::kind::{KeyTable, NumberRange, TableKey, ValueKind};
+use crate::document::number;
 use serde_json::Value;
+use std::collections::BTreeSet;
 
 const INTRODUCTION: &str = "\
 # Keys of scene, sweep and study files
 
 This page is made by `phase generate reference keys`. Units are SI throughout, angles are in
-radians, z points up, and the tank's axis is the z axis. A key whose default is *needed* must be
-there; one without a default may be left out, which then means what its description says.
+radians, z points up, and the tank's axis is the z axis. A key whose default is *needed* is
+required; without a default, the description says what leaving it out means. A table that several
+kinds of files share appears once.
 ";
 
 /// The page of all keys of all files, in Markdown: type, unit, default, description.
 pub fn keys() -> String {
-    let mut page = KeysPage(INTRODUCTION.to_owned());
+    let mut page = KeysPage {
+        text: INTRODUCTION.to_owned(),
+        sections: BTreeSet::new(),
+    };
     for file in InputFile::ALL {
         let heading = match file {
             InputFile::Scene => "Scene files",
@@ -22,36 +28,52 @@ pub fn keys() -> String {
             InputFile::Stability => "Studies of stability",
             InputFile::Accuracy => "Studies of accuracy",
         };
-        page.0 += &format!("\n## {heading}\n\n");
-        page.tables("", &file.schema().kind);
+        page.text += &format!("\n## {heading}\n\n");
+        page.tables("", None, &file.schema().kind);
     }
-    page.0
+    page.text
 }
 
 /// The page so far.
-struct KeysPage(String);
+struct KeysPage {
+    text: String,
+    /// The sections in it, each with its heading.
+    sections: BTreeSet<String>,
+}
 
 impl KeysPage {
-    /// The tables of keys that a value at `path` may have.
-    fn tables(&mut self, path: &str, kind: &ValueKind) {
+    /// The tables of keys that a value at `path` may have, whose key has this `description`.
+    fn tables(&mut self, path: &str, description: Option<&str>, kind: &ValueKind) {
         match kind {
+            ValueKind::Table(table) if path.is_empty() => {
+                self.text += &(paragraphs(table) + &rows(table));
+                self.tables_below(path, table);
+            }
             ValueKind::Table(table) => {
-                if !path.is_empty() {
-                    self.0 += &format!("\n### {}\n\n", heading(path));
-                }
-                self.table(path, None, table);
+                // The row of its key says the same.
+                let text = match table.description.as_deref() == description {
+                    true => String::new(),
+                    false => paragraphs(table),
+                };
+                self.section(&heading(path), &(text + &rows(table)));
+                self.tables_below(path, table);
             }
             ValueKind::Tagged(tag, variants) => {
                 for variant in variants {
-                    let word = &variant.word;
-                    self.0 += &format!("\n### {} with `{tag} = \"{word}\"`\n\n", heading(path));
-                    self.table(path, Some((tag, word)), &variant.table);
+                    let (word, table) = (&variant.word, &variant.table);
+                    let heading = format!("{} with `{tag} = \"{word}\"`", heading(path));
+                    self.section(&heading, &(paragraphs(table) + &rows(table)));
+                    self.tables_below(path, table);
                 }
             }
-            ValueKind::List(entry) => self.tables(&format!("{path}[]"), entry),
+            ValueKind::List(entry) => self.tables(&format!("{path}[]"), description, entry),
             // A scene within a sweep has a separate chapter.
             ValueKind::Either(_) if path == "scene" => {}
-            ValueKind::Either(kinds) => kinds.iter().for_each(|kind| self.tables(path, kind)),
+            ValueKind::Either(kinds) => {
+                for kind in kinds {
+                    self.tables(path, description, kind);
+                }
+            }
             ValueKind::Text
             | ValueKind::Flag
             | ValueKind::Number(_)
@@ -63,34 +85,59 @@ impl KeysPage {
         }
     }
 
-    fn table(&mut self, path: &str, tag: Option<(&str, &str)>, table: &KeyTable) {
-        if let Some(text) = &table.description {
-            self.0 += &format!("{}\n\n", text.replace('\n', "\n\n"));
-        }
-        self.0 += "| key | type | unit | default | description |\n|---|---|---|---|---|\n";
-        if let Some((tag, word)) = tag {
-            self.0 += &format!("| `{tag}` | \"{word}\" | | *needed* | |\n");
-        }
+    /// The tables of the keys of `table`.
+    fn tables_below(&mut self, path: &str, table: &KeyTable) {
         for key in &table.keys {
-            let units: Vec<&str> = key.quantity.iter().flat_map(|it| it.units()).collect();
-            let cells = [
-                format!("`{}`", key.name),
-                type_words(&key.kind),
-                units.join(", "),
-                default(key),
-                key.description.clone().unwrap_or_default(),
-            ];
-            let cells = cells.map(|cell| match cell.as_str() {
-                "" => " ".to_owned(),
-                // A bar would end the cell.
-                cell => format!(" {} ", cell.replace('|', "\\|").replace('\n', "<br>")),
-            });
-            self.0 += &format!("|{}|\n", cells.join("|"));
-        }
-        for key in &table.keys {
-            self.tables(&key.path(path), &key.kind);
+            self.tables(&key.path(path), key.description.as_deref(), &key.kind);
         }
     }
+
+    /// A section, unless the page has it already.
+    fn section(&mut self, heading: &str, content: &str) {
+        let section = format!("\n### {heading}\n\n{content}");
+        if !self.sections.contains(&section) {
+            self.text += &section;
+            self.sections.insert(section);
+        }
+    }
+}
+
+/// The description of a table.
+fn paragraphs(table: &KeyTable) -> String {
+    match &table.description {
+        Some(text) => format!("{}\n\n", text.replace('\n', "\n\n")),
+        None => String::new(),
+    }
+}
+
+/// A row for each key, except the one that selects this table.
+fn rows(table: &KeyTable) -> String {
+    if table.keys.is_empty() {
+        return "No other keys.\n".to_owned();
+    }
+    let mut rows =
+        "| key | type and unit | default | description |\n|---|---|---|---|\n".to_owned();
+    for key in &table.keys {
+        // The unit of a pure number is empty.
+        let units = key.quantity.iter().flat_map(|it| it.units());
+        let units: Vec<&str> = units.filter(|unit| !unit.is_empty()).collect();
+        let cells = [
+            format!("`{}`", key.name),
+            match units.as_slice() {
+                [] => type_words(&key.kind),
+                units => format!("{} ({})", type_words(&key.kind), units.join(", ")),
+            },
+            default(key),
+            description(key, &units),
+        ];
+        let cells = cells.map(|cell| match cell.as_str() {
+            "" => " ".to_owned(),
+            // A bar would end the cell.
+            cell => format!(" {} ", cell.replace('|', "\\|").replace('\n', "<br>")),
+        });
+        rows += &format!("|{}|\n", cells.join("|"));
+    }
+    rows
 }
 
 /// The heading of a table, as in a file.
@@ -103,18 +150,52 @@ fn heading(path: &str) -> String {
     }
 }
 
+/// What a value may be, in the fewest words.
 fn type_words(kind: &ValueKind) -> String {
     match kind {
-        ValueKind::Table(_) | ValueKind::Tagged(..) => "a table".to_owned(),
-        ValueKind::List(entry) if matches!(**entry, ValueKind::Table(_)) => {
-            "a list of tables".to_owned()
+        ValueKind::Text => "text".to_owned(),
+        ValueKind::Number(range) => format!("number{}", bounds(*range)),
+        ValueKind::Whole(least) => format!("integer ≥ {least}"),
+        ValueKind::Choice(words) => {
+            let words: Vec<String> = words.iter().map(|word| format!("\"{word}\"")).collect();
+            words.join(", ")
         }
+        ValueKind::Table(_) | ValueKind::Tagged(..) | ValueKind::AnyTable => "table".to_owned(),
+        ValueKind::List(entry) => match &**entry {
+            ValueKind::Table(_) => "list of tables".to_owned(),
+            ValueKind::Number(_) | ValueKind::Whole(_) => "list of numbers".to_owned(),
+            entry => format!("list of {}", type_words(entry)),
+        },
+        ValueKind::Vector => "three numbers".to_owned(),
         ValueKind::Either(kinds) => {
             let kinds: Vec<String> = kinds.iter().map(type_words).collect();
-            kinds.join(", or ")
+            kinds.join(" or ")
         }
-        kind => kind.words(),
+        kind @ (ValueKind::Flag | ValueKind::Any) => kind.words(),
     }
+}
+
+/// The bounds of a number, to follow the word.
+fn bounds(range: NumberRange) -> String {
+    let (low, high) = (number(range.low), number(range.high));
+    let has_low = range.low > -NumberRange::HUGE;
+    let has_high = range.high < NumberRange::HUGE;
+    match (has_low, has_high, range.low_allowed) {
+        (false, false, _) => String::new(),
+        (false, true, _) => format!(" ≤ {high}"),
+        (true, false, true) => format!(" ≥ {low}"),
+        (true, false, false) => format!(" > {low}"),
+        (true, true, true) => format!(", {low} to {high}"),
+        (true, true, false) => format!(" > {low}, ≤ {high}"),
+    }
+}
+
+/// The description of a key, without the units, which the table has already.
+fn description(key: &TableKey, units: &[&str]) -> String {
+    let text = key.description.clone().unwrap_or_default();
+    units
+        .iter()
+        .fold(text, |text, unit| text.replace(&format!(" ({unit})"), ""))
 }
 
 fn default(key: &TableKey) -> String {

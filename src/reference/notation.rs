@@ -9,8 +9,8 @@ const INTRODUCTION: &str = "\
 Symbol, unit and name of every numeric key of a scene, as figures write them. This page is made by
 `phase generate reference notation`.
 
-| symbol | quantity | unit | key |
-|---|---|---|---|
+| symbol | quantity and unit | key |
+|---|---|---|
 ";
 
 /// The table of symbols, in Markdown.
@@ -29,7 +29,8 @@ pub fn notation() -> String {
         let units = &mut rows[row].2;
         let new: Vec<&str> = quantity
             .units()
-            .filter(|unit| !units.contains(unit))
+            // The unit of a pure number is empty.
+            .filter(|unit| !unit.is_empty() && !units.contains(unit))
             .collect();
         units.extend(new);
     });
@@ -37,8 +38,11 @@ pub fn notation() -> String {
         let symbol = subscripts(&quantity.symbol);
         // The bars of an absolute value would end a cell.
         let name = quantity.name.replace('|', "\\|");
-        let unit = units.join(", ");
-        format!("| {symbol} | {name} | {unit} | `{path}` |\n")
+        let unit = match units.as_slice() {
+            [] => String::new(),
+            units => format!(" ({})", units.join(", ")),
+        };
+        format!("| {symbol} | {name}{unit} | `{path}` |\n")
     };
     INTRODUCTION.to_owned() + &rows.iter().map(row).collect::<String>()
 }

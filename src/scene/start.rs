@@ -42,10 +42,8 @@ pub enum Start {
         )]
         spin: f64,
     },
-    /// A random dense packing on the floor of a tank with four sides, made by the program: spheres
-    /// at rest that touch without overlap, with a packing fraction of 0.64 in the bulk and less
-    /// between close sides. It depends only on the seed, the number of spheres, their radius and
-    /// the sides.
+    /// A random dense packing on the floor of a tank with four sides, of spheres that touch without
+    /// overlap, with a packing fraction of 0.64 in the bulk and less between close sides.
     Packing {},
     /// Every sphere listed in the scene. Spheres may overlap walls and each other, for example to
     /// continue an earlier run. Overlaps that push spheres apart faster than any impact of the

@@ -130,8 +130,8 @@ impl Profile {
         // The clock is read a dozen times for 128 spheres, half a microsecond each, in a step of
         // about 50 ns per sphere: with at most one step in 16 this adds a few percent.
         let period = (8192 / spheres.max(1) as u64).clamp(16, 256);
-        // Multiples of the golden ratio are spread evenly over any rhythm of steps, such as that of
-        // the neighbour list.
+        // Multiples of the golden ratio are spread evenly over any rhythm of steps, such as the
+        // rebuilds of the neighbour list.
         let spread = (step + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
         self.latest = (spread < u64::MAX / period).then(|| {
             self.readings += 1;

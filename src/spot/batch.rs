@@ -91,7 +91,7 @@ impl MoveBatch<'_> {
         }
     }
 
-    /// The middle of the way of a move, as far as it is known.
+    /// The middle of the way of a move, if known.
     #[inline(always)]
     pub(super) fn expected_centre(&self, number: usize) -> Vector {
         let it = &self.moves[number];

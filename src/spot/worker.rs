@@ -24,7 +24,7 @@ const LOOKS: usize = 1024;
 /// Largest number of waiting moves.
 const MOST_WAITING: usize = 32;
 
-/// A move that waits, and its centre, as far as it is known (m).
+/// A move that waits, and its centre, if known (m).
 type Waiting = (Turn, Vector);
 
 /// The state of one thread.
@@ -202,7 +202,7 @@ impl StripTask<'_> {
         true
     }
 
-    /// The centre of a move, as far as it is known (m).
+    /// The centre of a move, if known (m).
     fn centre(&self, turn: &Turn) -> Vector {
         self.batch.expected_centre(turn.number as usize)
     }

@@ -31,7 +31,7 @@ pub fn write_atomic(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
 /// longer than all the rest. After a crash of the machine, not of the program, it may be empty.
 ///
 /// # Errors
-/// Those of [`write_atomic`].
+/// As for [`write_atomic`].
 pub(super) fn write_one_of_many(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
     replace(path, Durable::No, |file| file.write_all(bytes))
         .map_err(|error| StoreError::writing(path, error))
@@ -40,7 +40,7 @@ pub(super) fn write_one_of_many(path: &Path, bytes: &[u8]) -> Result<(), StoreEr
 /// The same for a file too large to be in memory: `fill` writes it.
 ///
 /// # Errors
-/// Those of [`write_atomic`].
+/// As for [`write_atomic`].
 pub(super) fn write_atomic_with(
     path: &Path,
     fill: impl FnOnce(&mut BufWriter<&mut File>) -> io::Result<()>,
@@ -113,7 +113,7 @@ pub fn check_writable(path: &Path) -> Result<(), StoreError> {
 }
 
 /// Before this process first writes to a folder: removes the temporary files that processes of this
-/// machine left there when they were killed. What cannot be removed stays, which harms nobody.
+/// machine left there when they were killed. What cannot be removed stays and does no harm.
 fn remove_those_of_the_dead(folder: &Path) {
     static CLEANED: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
     let mut cleaned = CLEANED.lock().unwrap_or_else(PoisonError::into_inner);

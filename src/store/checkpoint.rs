@@ -1,4 +1,4 @@
-//! The checkpoint of one run: what it goes on from when it was interrupted.
+//! The checkpoint of one run, from which it continues after an interruption.
 //!
 //! ```text
 //! signature   21 bytes, "phase checkpoint" between marks
@@ -11,7 +11,7 @@
 //!
 //! Version, header and state are in the encoding of postcard, in which a number keeps all its bits,
 //! also one that is not a number. Only the very program that wrote a checkpoint reads it: another
-//! one might go on with other bits. Signature, version and checksum stay where they are in all
+//! one might continue with other bits. Signature, version and checksum stay where they are in all
 //! versions.
 
 use super::StoreError;
@@ -32,7 +32,7 @@ pub const CHECKPOINT_SIGNATURE: &[u8; 21] = b"\x89phase checkpoint\r\n\x1a\n";
 /// Raised with every change of the layout above; what a state holds follows from the program.
 const VERSION: u32 = 3;
 
-/// Why a run cannot go on from a checkpoint. The file stays as it is.
+/// Why a run cannot continue from a checkpoint. The file stays as it is.
 #[derive(Debug, thiserror::Error)]
 #[error("{0}")]
 pub struct CheckpointError(String);
@@ -54,7 +54,7 @@ impl CheckpointError {
     pub(crate) fn unfit(path: &Path, reason: impl Display) -> Self {
         Self::new(
             path,
-            format_args!("nothing can go on from this checkpoint: {reason}"),
+            format_args!("no run can continue from this checkpoint: {reason}"),
         )
     }
 }
@@ -118,7 +118,7 @@ impl Checkpoint {
 /// Reads the checkpoint of a run of that scene, if there is a file at all.
 ///
 /// # Errors
-/// If a run of this scene, by this program, cannot go on from that file.
+/// If a run of this scene, by this program, cannot continue from this file.
 pub fn read_checkpoint(path: &Path, scene: &Scene) -> Result<Option<Checkpoint>, CheckpointError> {
     match fs::read(path) {
         Ok(bytes) => {
@@ -171,7 +171,7 @@ fn find_state(
     if program != own {
         let reason = format_args!(
             "this checkpoint was written by phase {} (commit {}), but this is phase {} (commit \
-             {}), which may go on with other bits",
+             {}), which may continue with other bits",
             program.version, program.commit, own.version, own.commit
         );
         return Err(CheckpointError::new(path, reason));

@@ -56,7 +56,7 @@ pub fn write_labels(table: &LabelTable, path: &Path) -> Result<(), StoreError> {
 /// the majority `label`, its `code`, the `agreement` of the seeds and their number, `seeds`.
 ///
 /// # Errors
-/// Those of [`write_labels`].
+/// As for [`write_labels`].
 pub fn write_points(table: &LabelTable, path: &Path) -> Result<(), StoreError> {
     let fail = |error| StoreError::content(path, error);
     let mut writer = csv_writer();

@@ -88,7 +88,7 @@ fn what_is_no_drainage_within_the_times_is_refused() {
         ],
     ] {
         let answer = place.phase(command).code(2);
-        answer.complains("within the times that are asked for");
+        answer.complains("within the requested times");
     }
     let tank = r#"
         spheres = { count = 2, radius = 0.004, density = 1e3 }

@@ -41,18 +41,12 @@ fn the_reference_tells_type_unit_default_and_description() {
     let page = Workplace::new()
         .phase(&["generate", "reference", "keys"])
         .code(0);
-    page.says(
-        "| `density` | a number of at least 1e-9 and at most 1e15 | kg/m³, kg/m² | *needed* | \
-         Density rho",
-    )
-    .says(
-        "| `dt` | a number of at least 1e-15 and at most 1e15, or \"auto\" | s | *needed* | Time \
-         step dt (s);",
-    )
-    .says("| `overlap` | a number above 0 | | `1.5` | Largest overlap")
-    .says("| `window` | a number above 0 | s | `0.5` | Window (s). |")
-    .says("### `[friction]` with `law = \"mindlin\"`")
-    .says("Largest \\|x\\| and \\|y\\| of a centre");
+    page.says("| `density` | number, 1e-9 to 1e15 (kg/m³, kg/m²) | *needed* | Density rho")
+        .says("| `dt` | number, 1e-15 to 1e15 or \"auto\" (s) | *needed* | Time step dt;")
+        .says("| `overlap` | number > 0 | `1.5` | Largest overlap")
+        .says("| `window` | number > 0 (s) | `0.5` | Window. |")
+        .says("### `[friction]` with `law = \"mindlin\"`")
+        .says("Largest \\|x\\| and \\|y\\| of a centre");
 }
 
 /// TOML files in a folder and those below it.

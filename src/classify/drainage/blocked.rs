@@ -30,7 +30,7 @@ impl Label {
 }
 
 measures! {
-    /// What the blocked sieve says.
+    /// Evidence of the blocked sieve.
     struct BlockedEvidence {
         /// Number of spheres that left in the last window.
         blocked_count: evidence("spheres in the last window", ""),

@@ -26,7 +26,7 @@ impl Default for DrainedSieve {
 }
 
 measures! {
-    /// What the drained sieve says.
+    /// Evidence of the drained sieve.
     struct DrainedEvidence {
         /// Share of the spheres that left, less the threshold.
         drained_margin: evidence("margin of the drained sieve", "").signed(),

@@ -1,4 +1,4 @@
-//! What the sieves of a drainage read of a record.
+//! The parts of a record that the sieves of a drainage use.
 
 use crate::measure::stagnant_height;
 use crate::observe::{Observations, Snapshot};

@@ -31,7 +31,7 @@ impl Label {
 }
 
 measures! {
-    /// What the stagnant sieve says; empty with fewer than two snapshots.
+    /// Evidence of the stagnant sieve; empty with fewer than two snapshots.
     struct StagnantEvidence {
         /// Height of the stagnant zone over the threshold, less 1.
         stagnant_margin: evidence("margin of the stagnant sieve", "").signed(),

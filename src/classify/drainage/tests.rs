@@ -106,8 +106,8 @@ fn an_opening_that_none_leaves_through_is_blocked() {
     let verdict = judge(&until(15.0));
     assert_eq!(verdict.label, Label::BLOCKED);
     assert_eq!(verdict.value("blocked_count"), Some(0.0));
-    // Symptom: blocked runs counted in the fit of Beverloo's law. Cause: they had a rate, that of
-    // the time before.
+    // Symptom: blocked runs counted in the fit of Beverloo's law. Cause: they had the rate
+    // of the time before.
     assert_eq!(verdict.value("outflow_rate"), None);
     // The window of 4 s begins at 16 s.
     let verdict = judge(&until(17.0));

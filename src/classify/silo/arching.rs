@@ -32,17 +32,16 @@ impl Label {
 }
 
 measures! {
-    /// What the arching sieve says; empty in a run whose door did not open.
+    /// Evidence of the arching sieve; empty in a run whose door did not open.
     struct ArchingEvidence {
         /// Time without an outflow (s): from the last grain that left, or from the opening of the
         /// door if none did, to the end of the run. A run that ended because all grains were at
-        /// rest would have gone on so to its duration, and has one window at least.
+        /// rest would have stayed so to its duration, and has one window at least.
         arching_pause: evidence("time without an outflow", "s"),
         /// That time over the window, less 1.
         arching_margin: evidence("margin of the arching sieve", "").signed(),
         /// Number of grains over the opening at the end; empty in a scene whose geometry has no
-        /// door to tell where that is. Without any nothing blocks it, and what is left lies beside
-        /// it.
+        /// door. Without any nothing blocks it: the remaining grains lie elsewhere.
         over_opening: evidence("grains over the opening at the end", ""),
     }
 }

@@ -32,7 +32,7 @@ impl Label {
 }
 
 measures! {
-    /// What the emptied sieve says; empty in a run whose door did not open.
+    /// Evidence of the emptied sieve; empty in a run whose door did not open.
     struct EmptiedEvidence {
         /// Share of the grains that left, less the threshold.
         emptied_margin: evidence("margin of the emptied sieve", "").signed(),

@@ -37,7 +37,7 @@ impl Label {
 }
 
 measures! {
-    /// What the flowing sieve says; empty in a run whose door did not open.
+    /// Evidence of the flowing sieve; empty in a run whose door did not open.
     struct FlowingEvidence {
         /// Number of grains that left in the last window.
         flowing_count: evidence("grains in the last window", ""),

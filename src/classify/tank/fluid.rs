@@ -48,7 +48,7 @@ impl Label {
 }
 
 measures! {
-    /// What the fluid sieve says; empty on a run too short for a yes.
+    /// Evidence of the fluid sieve; empty on a run too short for a yes.
     struct FluidEvidence {
         /// Largest share of passing frames of any fluid window; frames outside the steady part
         /// count as failing.
@@ -123,7 +123,7 @@ impl FluidSieve {
     }
 }
 
-/// Whether the top of a bin is at least `least` (m) above that of the next inner one.
+/// Whether the top of a bin is at least `least` (m) above the top of the next inner one.
 fn rises(inner: f32, outer: f32, least: f64) -> bool {
     match (inner.is_nan(), outer.is_nan()) {
         (_, true) => false,

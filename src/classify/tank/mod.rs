@@ -1,7 +1,7 @@
 //! Tanks: spheres that stay, in the vortex of the air (Rice, 2012, section 3).
 //!
-//! A run first has to settle. Each further sieve then looks for its state in what follows, and the
-//! last of them in the order of their list that says yes decides.
+//! A run first has to settle. Each further sieve then looks for its state in the rest of the run;
+//! the last one in the list that finds its state decides.
 
 pub(super) mod fluid;
 mod order;

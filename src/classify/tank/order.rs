@@ -1,4 +1,4 @@
-//! Continuous measures of the state, which tell apart what one label holds together.
+//! Continuous measures of the state, which distinguish runs of one label.
 
 use super::run::TankRun;
 use crate::classify::measure::{measured, measures};

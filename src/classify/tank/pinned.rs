@@ -9,7 +9,7 @@ use crate::scene::Scene;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Thresholds of the pinned sieve (Rice, 2012, listing 7.3, whose central hole is meant, not the
+/// Thresholds of the pinned sieve (Rice, 2012, listing 7.3, which means the central hole, not the
 /// text's two layers at the wall).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
@@ -42,7 +42,7 @@ impl Label {
 }
 
 measures! {
-    /// What the pinned sieve says; empty on a run too short for a yes.
+    /// Evidence of the pinned sieve; empty on a run too short for a yes.
     struct PinnedEvidence {
         /// Largest share of frames with a hole of any pinned window; frames outside the steady
         /// part count as having none.

@@ -59,10 +59,10 @@ impl Label {
 }
 
 measures! {
-    /// What the settle sieve says.
+    /// Evidence of the settle sieve.
     struct Settling {
         /// Time from which the run counts as steady (s): the middle of the first steady window, or
-        /// where that of [steady] begins.
+        /// the beginning of the window of [steady].
         settle_time: measured("settle time", "s"),
         /// Least mean energy change of any window in which all spheres are low enough, over the
         /// tolerance; yes up to 1. Empty if there is no such window.
@@ -83,7 +83,7 @@ impl Sieve for SettleSieve {
     fn check(&self, scene: &Scene) -> Result<(), ClassifyError> {
         let interval = scene.time.frame_interval;
         window::check("settle.window", self.window, interval)?;
-        // A drift is told from two halves.
+        // A drift is the difference of two halves.
         window::check_of("settle.drift_window", self.drift_window, interval, 2)?;
         let invalid = |key, value, expected: &str| ClassifyError::Threshold {
             key,

@@ -59,7 +59,7 @@ impl Label {
 }
 
 measures! {
-    /// What the spout sieve says; empty where the run leaves no room for a window.
+    /// Evidence of the spout sieve; empty where the run leaves no room for a window.
     struct SpoutEvidence {
         /// Largest share of frames that qualify as a spout of any spout window.
         spout_share: evidence("share of frames with a spout", ""),

@@ -237,8 +237,8 @@ fn describe_time(scene: &Scene) -> String {
     format!("{duration} {unit} in {frames} frames of {steps} steps of {dt} {unit}")
 }
 
-/// The time step over the limit it must not exceed, and over those it had better not; with
-/// `all`, over every limit, explained.
+/// The time step over the decisive limit and over the advised ones; with `all`, over every limit,
+/// explained.
 fn describe_time_step(tightest: &[Tightest<'_>], axes: &[Axis], all: bool) -> Vec<String> {
     let is_told =
         |(index, it): &(usize, &Tightest<'_>)| all || *index == 0 || it.standing.ratio > 1.0;
@@ -327,7 +327,7 @@ impl<'a> AxisAnswer<'a> {
     }
 }
 
-/// What `--json` prints.
+/// The `--json` result.
 #[derive(Serialize)]
 struct Answer<'a> {
     file: &'a Path,

@@ -90,8 +90,8 @@ fn jobs_to_label(folder: &Folder, sweep: &Sweep) -> Result<Vec<Job>, Failure> {
     Ok(jobs)
 }
 
-/// The sweep of a folder. Refuses to label runs whose records are not there: where none of them is,
-/// as in results that were published, the labels are kept.
+/// The sweep of a folder. Refuses to label runs without records. If no run has a record, as in
+/// published results, the labels are kept.
 fn sweep_with_records(folder: &Folder) -> Result<Sweep, Undone> {
     let sweep = folder.read_sweep()?;
     match refuse_to_lose_labels(folder, []) {
@@ -103,7 +103,7 @@ fn sweep_with_records(folder: &Folder) -> Result<Sweep, Undone> {
     }
 }
 
-/// What `--json` prints.
+/// The `--json` result.
 #[derive(Serialize)]
 struct Answer {
     folders: Vec<Entry<Summary>>,

@@ -127,7 +127,7 @@ fn names(columns: &[Column], labels: &[String]) -> Result<Vec<String>, Failure> 
     Ok(labels.to_vec())
 }
 
-/// What the columns of a record are called: A, B and so on.
+/// The names of the records' columns: A, B and so on.
 fn letter(index: usize) -> String {
     match u8::try_from(index) {
         Ok(small) if small < 26 => char::from(b'A' + small).to_string(),
@@ -155,7 +155,7 @@ fn lines(rows: &[ComparisonRow], records: usize, units: Units, is_of_one_run: bo
     in_columns(&cells)
 }
 
-/// What `--json` prints.
+/// The `--json` result.
 #[derive(Serialize)]
 struct Answer {
     /// The records: file, and what differs.
@@ -171,7 +171,7 @@ struct Entry {
     /// Values, and half widths of their intervals of 95 %, in the order of the records.
     values: Vec<Option<f64>>,
     half_widths: Vec<Option<f64>>,
-    /// Of two records: the second less the first, and half the width of its interval.
+    /// For two records the second minus the first, and half the width of its interval.
     difference: Option<f64>,
     difference_half_width: Option<f64>,
 }

@@ -116,7 +116,7 @@ fn print_parts(cost: &SweepCost<'_>, unit: &str, console: &Console) {
     ));
 }
 
-/// What `--json` prints.
+/// The `--json` result.
 #[derive(Serialize)]
 struct Answer<'a> {
     file: &'a Path,
@@ -129,7 +129,7 @@ struct Answer<'a> {
     tried: Vec<TriedAnswer>,
 }
 
-/// What a part costs.
+/// The cost of a part.
 #[derive(Serialize)]
 struct Row {
     part: &'static str,
@@ -137,7 +137,7 @@ struct Row {
     present: bool,
     /// Per sphere and step (ns).
     nanoseconds: f64,
-    /// Of the total.
+    /// Share of the total.
     share: f64,
 }
 

@@ -79,7 +79,7 @@ enum Format {
 }
 
 impl Format {
-    /// What the file that stands for the whole is, and what it begins with, if that is always so.
+    /// The kind of the main file, and its first bytes, if they are always the same.
     fn signature(self) -> (&'static str, &'static [u8]) {
         match self {
             Self::Xyz | Self::Npy | Self::Svg => ("", b""),
@@ -112,7 +112,7 @@ impl Format {
         }
     }
 
-    /// A file beside that of the states, with this at the end of its name.
+    /// A file next to the states' file, with this at the end of its name.
     fn beside(self, target: &Path, name: &str) -> PathBuf {
         let mut stem = target.file_stem().unwrap_or_default().to_owned();
         stem.push(format!("-{name}.{}", self.extension()));
@@ -176,10 +176,10 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     Ok(exit)
 }
 
-/// What `--json` prints.
+/// The `--json` result.
 #[derive(Serialize)]
 struct Answer {
-    /// Of several records the ones that could not be exported.
+    /// The records that could not be exported.
     failed: Vec<FailedRecord>,
 }
 
@@ -190,7 +190,7 @@ struct FailedRecord {
     reason: String,
 }
 
-/// Where each record goes, or why it goes nowhere. Refuses records that would go to one place.
+/// The target of each record, or why it has none. Refuses records with the same target.
 fn targets(arguments: &Arguments) -> Result<Vec<Result<PathBuf, Failure>>, Failure> {
     let extension = arguments.to.extension();
     if let Some(out) = arguments.out.as_ref().filter(|out| !out.is_dir())
@@ -221,7 +221,7 @@ fn targets(arguments: &Arguments) -> Result<Vec<Result<PathBuf, Failure>>, Failu
     Ok(targets)
 }
 
-/// Where an export goes: the file that stands for it, or the folder of its arrays.
+/// The target of an export: its main file, or the folder of its arrays.
 fn target(arguments: &Arguments, record_path: &Path) -> Result<PathBuf, StoreError> {
     // Refuse what is no record before anything is written.
     store::read_record_header(record_path)?;
@@ -302,7 +302,7 @@ fn export(
     Ok(())
 }
 
-/// Writes states of a record; returns the files, or the folder of many, that stand for them.
+/// Writes states of a record; returns the files, or the folder that holds them.
 fn write(
     record: &RunRecord,
     states: &[&Snapshot],
@@ -337,7 +337,7 @@ fn write(
 /// Writes a file about a record.
 type Write = fn(&RunRecord, &Path) -> Result<(), StoreError>;
 
-/// What goes to files beside that of the states: what their names say, and what writes them.
+/// Further files next to the states' file: the ends of their names, and what writes them.
 fn more(record: &RunRecord, format: Format) -> Vec<(&'static str, Write)> {
     let fixed: Option<Write> = match format {
         Format::Xyz => Some(store::write_fixed_xyz),

@@ -43,8 +43,8 @@ enum Model {
     Spot,
 }
 
-/// A parameter: its key in a scene, its symbol, what Rycroft, Wong and Bazant (2010) fitted to
-/// their discrete elements, in units of the spheres, and how.
+/// A parameter: its key in a scene, its symbol, the value that Rycroft, Wong and Bazant (2010)
+/// fitted to their discrete elements, in units of the spheres, and how.
 struct Parameter {
     key: &'static str,
     symbol: &'static str,
@@ -147,7 +147,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
 }
 
 impl Parameter {
-    /// That of the paper in SI units for spheres of this scene; none if their tau is not known.
+    /// The paper's value in SI units for spheres of this scene; `None` if their tau is not known.
     fn of_paper(&self, scene: &Scene) -> Option<f64> {
         let diameter = 2.0 * scene.spheres.radius.mean();
         let gravity = match (&scene.dem.effects.gravity, scene.units()) {
@@ -225,7 +225,7 @@ fn scene(drainage: &MeasuredDrainage<'_>, fit: &SpotFit) -> String {
     )
 }
 
-/// What `--json` prints.
+/// The `--json` result.
 #[derive(Serialize)]
 struct Answer {
     parameters: Vec<Entry>,
@@ -238,7 +238,7 @@ struct Entry {
     value: f64,
     /// Half the width of its interval of 95 %, if its scatter is known.
     half_width: Option<f64>,
-    /// That of Rycroft, Wong and Bazant (2010) for spheres of this size, if their tau is known.
+    /// The value of Rycroft, Wong and Bazant (2010) for spheres of this size, if tau is known.
     paper: Option<f64>,
 }
 

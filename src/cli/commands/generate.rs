@@ -1,4 +1,4 @@
-//! `phase generate`: what follows from the program: schemas, pages of the manual, completions.
+//! `phase generate`: schemas, pages of the reference, completions, manual pages.
 
 use crate::cli::CommandLine;
 use crate::cli::console::Console;
@@ -10,8 +10,7 @@ use phase::reference::{self, InputFile};
 use phase::store;
 use std::path::{Path, PathBuf};
 
-/// Print what follows from the program: a JSON schema, a page of the reference, completions for a
-/// shell, or manual pages.
+/// Print a JSON schema, a page of the reference, completions for a shell, or manual pages.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Example: a schema for your own scenes
@@ -37,7 +36,7 @@ pub(crate) struct Arguments {
 
 #[derive(clap::Subcommand)]
 enum What {
-    /// Print the JSON schema of a kind of file, by which an editor completes and checks it.
+    /// Print the JSON schema of a kind of file, with which editors complete and check it.
     Schema {
         /// The kind of file.
         kind: Kind,
@@ -47,7 +46,7 @@ enum What {
         /// The page.
         page: Page,
     },
-    /// Print what lets a shell complete the commands and options of phase.
+    /// Print a script with which a shell completes commands and options of phase.
     Completions {
         /// The shell.
         shell: Shell,

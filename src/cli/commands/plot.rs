@@ -22,18 +22,18 @@ use std::path::{Path, PathBuf};
 /// two times.
 #[derive(clap::Args)]
 #[command(after_help = "\
-Example: what can be drawn of a folder, and one of it
+Example: list the figures of a folder, and draw one
   phase plot --list results/quick
   phase plot results/quick --figure hole-radius
 Example: the speeds in two runs
   phase plot results/quick --figure speeds --point radius=0.002,omega=8 --point radius=0.006,omega=8
 Example: the paths of the spheres in one record, which needs `trajectory = true` in its scene
   phase plot results/collisions/cradle.h5
-Example: where the energy went, in a record of `phase run --ledger`; energies and speeds of any
+Example: where the energy went in a record of `phase run --ledger`; energies and speeds
   phase plot tank.h5 --figure ledger,energies,speeds --out figures
 Example: two drainages in one figure, from when the flow has developed
   phase plot full.h5 coarse.h5 --figure radial-distribution --times 40,200 --out figures
-Example: a drainage beside points of a paper
+Example: a drainage with points from a paper
   phase plot full.h5 --figure cross-profile --times 80,180 --data paper.csv")]
 pub(crate) struct Arguments {
     /// A results folder of `phase sweep`, a folder that holds several, or one or more records
@@ -127,7 +127,7 @@ impl Arguments {
     }
 }
 
-/// What `--json` prints.
+/// The `--json` result.
 #[derive(Default, Serialize)]
 struct Answer {
     /// The figures that can be drawn, if they were asked for.
@@ -152,8 +152,7 @@ struct Listed {
 }
 
 impl Answer {
-    /// Prints name and description of every figure, or of those that can be drawn of what is at
-    /// `dir`.
+    /// Prints name and description of every figure, or of the figures that can be drawn from `dir`.
     fn list(&mut self, dir: Option<&Path>, console: &Console) -> Result<(), Failure> {
         let known: Vec<&Figure> = match dir {
             None => {
@@ -182,7 +181,7 @@ impl Answer {
         Ok(())
     }
 
-    /// The figures that can be drawn of the results folders at `dir`: a try succeeds.
+    /// The figures that can be drawn from the results folders at `dir`, found by drawing them.
     fn drawable(&mut self, dir: &Path, console: &Console) -> Result<Vec<&'static Figure>, Failure> {
         let of_sweeps = plot::figures().iter().filter(|figure| figure.is_of_sweep());
         let mut is_drawn: Vec<(&Figure, bool)> = of_sweeps.map(|figure| (figure, false)).collect();
@@ -250,7 +249,7 @@ impl Answer {
 }
 
 impl Listed {
-    /// Prints it, with the families of scenes that it is for if these are not known.
+    /// Prints it, with its families of scenes if the folder does not determine them.
     fn print(&self, with_families: bool, console: &Console) {
         let families = match self.families.join(", ") {
             names if with_families && !names.is_empty() => format!(" [{names}]"),
@@ -269,8 +268,8 @@ impl Listed {
     }
 }
 
-/// Names figures that could not be drawn, and why; gives the reasons. If nothing was drawn, the
-/// first of them is the failure of the whole.
+/// Reports figures that could not be drawn, and returns the reasons. If nothing was drawn, the
+/// first reason is the failure of the command.
 fn name_all(
     mut failures: Vec<Failure>,
     nothing_drawn: bool,

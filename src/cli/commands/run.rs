@@ -37,13 +37,12 @@ Example: the same with other keys
 Example: one job of a sweep, this time with all spheres at every frame
   phase run --from results/quick --point radius=0.003,omega=6 --trajectory --out spout.h5
 
-Example: a long run that was interrupted goes on
+Example: continue an interrupted run
   phase run sweeps/scenes/silo.toml --resume
 
-A long run leaves a checkpoint beside the record to be, NAME.checkpoint beside NAME.h5,
-every two minutes and when it is interrupted. What goes on from it gives the same bits as a run that
-was not interrupted. Only the same build of phase, with the same scene and output, can go on from
-it.")]
+A long run writes a checkpoint, NAME.checkpoint next to NAME.h5, every two minutes and when it is
+interrupted. A continued run has the same bits as an uninterrupted one. Only the same build of
+phase, with the same scene and output, reads a checkpoint.")]
 pub(crate) struct Arguments {
     /// The scene file (TOML).
     #[arg(required_unless_present = "from")]
@@ -84,7 +83,7 @@ pub(crate) struct Arguments {
     /// Time between two checkpoints (s); 0 for a checkpoint at every frame [default: 120].
     #[arg(long, value_name = "SECONDS", value_parser = values::seconds)]
     checkpoint_interval: Option<Duration>,
-    /// Threads for the simulation; smaller runs than 4096 spheres stay on one. The bits do not
+    /// Threads for the simulation; runs of fewer than 4096 spheres use one. The bits do not
     /// depend on it.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = values::threads)]
     threads: usize,
@@ -209,8 +208,8 @@ fn lock(record: &Path) -> Result<Lease, Failure> {
     })
 }
 
-/// Writes the record, into its folder made anew if somebody removed it. Where that fails, what is
-/// left of the run is its latest checkpoint. The record loses its states if it need not keep them.
+/// Writes the record, and makes its folder again if somebody removed it. If this fails, only the
+/// latest checkpoint of the run remains. The record loses its states if it need not keep them.
 fn write(
     record: &mut RunRecord,
     path: &Path,
@@ -272,13 +271,13 @@ fn default_record(file: &Path) -> PathBuf {
         .with_added_extension("h5")
 }
 
-/// What `--json` prints.
+/// The `--json` result.
 #[derive(Serialize)]
 struct Answer<'a> {
     record: &'a Path,
     seed: u64,
     outcome: &'static str,
-    /// What ended an unstable run.
+    /// How an unstable run ended.
     instability: Option<&'a Instability>,
     seconds: f64,
     cpu_seconds: f64,
@@ -290,13 +289,13 @@ struct Answer<'a> {
     limit: Option<&'static str>,
     /// What happened once, and when (s), where spheres come or go.
     milestones: Vec<Milestone>,
-    /// What should have happened and did not.
+    /// Expected events that did not happen.
     unmet: Vec<String>,
     /// Time (s) and every scalar observable of the last frame, in the units of the record.
     last_frame: BTreeMap<&'a str, f64>,
-    /// Time (s) of the checkpoint that the run went on from; none if it began at its start.
+    /// Time (s) of the checkpoint from which the run continued; `None` if it began at its start.
     resumed_from: Option<f64>,
-    /// Whether a job that was run again gave the bits of the sweep's record; none without one.
+    /// Whether a job that was run again gave the bits of the sweep's record; `None` without one.
     same_bits: Option<bool>,
 }
 
@@ -335,7 +334,7 @@ impl<'a> Answer<'a> {
     }
 }
 
-/// What a run should have done and did not.
+/// Expected events that did not happen.
 fn unmet(record: &RunRecord) -> Vec<String> {
     let scene = &record.scene;
     let happened = |kind| record.milestones.iter().any(|it| it.kind == kind);

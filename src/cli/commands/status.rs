@@ -1,4 +1,4 @@
-//! `phase status`: how far the sweep of a results folder is.
+//! `phase status`: the progress of the sweep in a results folder.
 
 use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
@@ -117,7 +117,7 @@ fn describe_refined(
     lines
 }
 
-/// What `--json` prints.
+/// The `--json` result.
 #[derive(Serialize)]
 struct Answer {
     folders: Vec<Entry<FolderAnswer>>,
@@ -164,7 +164,7 @@ impl ClaimedAnswer {
     }
 }
 
-/// A run that goes on from its checkpoint.
+/// A run that will continue from its checkpoint.
 #[derive(Serialize)]
 struct UnderWayAnswer {
     id: String,
@@ -187,7 +187,7 @@ impl UnderWayAnswer {
     }
 }
 
-/// Time for the jobs left with that many workers (s), if any job is done to judge by.
+/// Time for the remaining jobs with this number of workers (s); `None` before any job is done.
 fn seconds_left(status: &Status, workers: usize) -> Option<f64> {
     // More workers than jobs are of no use.
     let workers = workers.min(status.left.max(1));

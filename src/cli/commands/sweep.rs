@@ -34,8 +34,8 @@ Example: the 9 x 9 grid on four cores, results in ./results/quick
 
 The results folder holds sweep.json (the sweep as run), records/ (one HDF5 file per run),
 labels.csv (one row per run), points.csv (one row per point of the grid), the figures as SVG
-and PNG, and, if any job failed, failed.csv. That of a refined sweep holds refined.csv (the
-probability of each label at each point) and borders.csv (the borders with their bands) too.")]
+and PNG, and, if any job failed, failed.csv. The folder of a refined sweep also holds refined.csv
+(the probability of each label at each point) and borders.csv (the borders with their bands).")]
 pub(crate) struct Arguments {
     /// The sweep file (TOML).
     file: PathBuf,
@@ -173,7 +173,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     Ok(if failed { Exit::Failed } else { Exit::Done })
 }
 
-/// The results folder. Refuses one where a file of another program is in the way.
+/// The results folder. Refuses a folder in which a file of another program is in the way.
 fn folder_of(sweep: &Sweep, arguments: &Arguments) -> Result<Folder, Failure> {
     let root = arguments.out.clone();
     let mut folder = Folder::new(root.unwrap_or_else(|| folders::default_folder(&arguments.file)));
@@ -218,8 +218,8 @@ fn tell_of_earlier_borders(folder: &Folder, sweep: &Sweep, console: &Console) {
     }
 }
 
-/// Takes the right to run a sweep into a folder, beside other processes that run the same one
-/// unless everything is run again.
+/// Takes the right to run a sweep into a folder: together with other processes that run the same
+/// one, unless everything is run again.
 fn enter(
     folder: &Folder,
     sweep: &Sweep,
@@ -290,7 +290,7 @@ fn refuse_foreign(folder: &Folder, sweep: &Sweep, arguments: &Arguments) -> Resu
 }
 
 /// The jobs of the sweep that the folder keeps, if this one makes the same, and those that a
-/// refined sweep takes as given. Those of rounds follow from the labels, so that the thresholds
+/// refined sweep takes as given. The jobs of rounds follow from the labels, so that the thresholds
 /// count too.
 fn jobs_made_again(folder: &Folder, sweep: &Sweep) -> Vec<Job> {
     let given = sweep.jobs_given_by(folder).unwrap_or_default();
@@ -305,7 +305,7 @@ fn jobs_made_again(folder: &Folder, sweep: &Sweep) -> Vec<Job> {
     given.into_iter().chain(jobs.unwrap_or_default()).collect()
 }
 
-/// Takes the seeds of the command line, and refines the sweep if that is asked for.
+/// Takes the seeds of the command line, and refines the sweep if requested.
 fn choose_runs(sweep: &mut Sweep, arguments: &Arguments) -> Result<(), Failure> {
     if !arguments.seed.is_empty() {
         let seeds = distinct(&arguments.seed)?;
@@ -354,7 +354,7 @@ fn tell_of_other_sweep(folder: &Folder, sweep: &Sweep, console: &Console) {
     }
 }
 
-/// What `--json` prints.
+/// The `--json` result.
 #[derive(Serialize)]
 struct Answer {
     folder: PathBuf,

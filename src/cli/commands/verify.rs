@@ -1,4 +1,4 @@
-//! `phase verify`: runs the verification cases and says how far each is from its number.
+//! `phase verify`: runs the verification cases and compares them with their numbers.
 
 use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
@@ -113,7 +113,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     })
 }
 
-/// What `--json` prints.
+/// The `--json` result.
 #[derive(Serialize)]
 struct Answer {
     runs: usize,
@@ -121,7 +121,7 @@ struct Answer {
     checks: Vec<Row>,
 }
 
-/// What `--list --json` prints.
+/// The `--list --json` result.
 #[derive(Serialize)]
 struct List<'a> {
     cases: Vec<Listed<'a>>,

@@ -28,7 +28,7 @@ use target::Target;
 /// shows. Several records are drawn side by side, to one scale.
 #[derive(clap::Args)]
 #[command(after_help = "\
-Example: the run at five times, then at two of one's own
+Example: the run at the default times, then at two chosen times
   phase view spout.h5
   phase view spout.h5 --time 1.5,5 --out late.png
 
@@ -43,7 +43,7 @@ Example: layers of a drainage in a cut through the middle, and what is near the 
 Example: two runs of one scene, with names of their own
   phase view a.h5 b.h5 --label \"no bias\" --label \"a bias of 3\" --out pair.png
 
-Example: an animation in real time; APNG (.png) keeps smaller files, GIF is shown by every program
+Example: an animation in real time; APNG (.png) files are smaller, every program shows GIF
   phase run --from results/quick --point radius=0.003,omega=6 --snapshot-interval 0.05 \\
     --out spout.h5
   phase view spout.h5 --animate spout.gif
@@ -122,11 +122,11 @@ enum Color {
     None,
 }
 
-/// What `--json` prints, apart from the picture's file.
+/// The `--json` result, apart from the picture's file.
 #[derive(Serialize)]
 struct Answer {}
 
-/// Panels if no times are asked for.
+/// Panels if no times are requested.
 const PANELS: usize = 5;
 /// Largest height of a picture (pixels).
 const HEIGHT: usize = 4000;
@@ -176,7 +176,7 @@ fn read(arguments: &Arguments) -> Result<Vec<RunRecord>, Failure> {
     Ok(records.collect::<Result<_, _>>()?)
 }
 
-/// What is shown of every record.
+/// The states to show of every record.
 fn runs<'a>(
     records: &'a [RunRecord],
     arguments: &Arguments,

@@ -169,8 +169,8 @@ mod tests {
     }
 
     proptest! {
-        /// Spheres go, come, and jump somewhere else; then every pair that the skin asks for is
-        /// there, once, in order.
+        /// After spheres leave, enter and jump elsewhere, the list has every pair within the skin
+        /// once, in order.
         #[test]
         fn a_list_follows_a_few_spheres(
             first in prop::collection::vec(sphere(), 60..90),

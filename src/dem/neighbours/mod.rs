@@ -66,7 +66,7 @@ pub struct VerletList {
     skin: f64,
     narrowest: f64,
     widest: f64,
-    /// The least skin that is asked for (m).
+    /// The least skin that is requested (m).
     least: f64,
     /// Entries of sphere i are `start[i]..start[i + 1]`.
     start: Vec<u32>,
@@ -86,7 +86,7 @@ pub struct VerletList {
     sorted: bool,
     builds: u64,
     /// Whether the list must be built again: spheres were replaced or sorted since the build, or a
-    /// wider skin is asked for.
+    /// wider skin is requested.
     outdated: bool,
 }
 

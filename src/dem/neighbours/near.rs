@@ -59,7 +59,7 @@ pub struct Near {
     purpose: Purpose,
     /// How far the offset of a pair may change (m).
     margin: f64,
-    /// The margin that is asked for at least, and the smallest that is then allowed (m).
+    /// The margin that is requested at least, and the smallest that is then allowed (m).
     least: f64,
     smallest: f64,
     anchor: Anchor,
@@ -236,7 +236,7 @@ impl Near {
         if self.purpose.shield {
             // The offset of a pair inside the box, or coming inside, is no longer than this.
             self.half_diagonal = SQRT_2 * 2.0 * particles.largest_radius() + self.margin;
-            // A margin that is asked for must be available in full from the start.
+            // A margin that is requested must be available in full from the start.
             let life = if self.least > 0.0 { 0.0 } else { self.life };
             self.turned = self
                 .anchor

@@ -192,8 +192,7 @@ fn limits<K: ContactKeys>(keys: &K, collisions: &[Collision], regime: &Regime<'_
             seconds: least(6.0_f64.sqrt(), 6.0),
             decisive: false,
             explanation: "(w dt)^2 + 2 g dt < 4 of a sphere with twelve such contacts, all assumed \
-                          to act along one line: w^2 and the damping rate g are 6 times those of a \
-                          pair",
+                          to act along one line: w^2 and the damping rate g are 6 times a pair's",
             consequence: Some("a sphere squeezed by many others may gain energy"),
         },
         regime.displacement(stiffest.speed),

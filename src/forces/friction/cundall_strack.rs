@@ -161,7 +161,7 @@ mod tests {
         let force = slide(law, &mut spring, 0.1, 1000);
         assert!((force + 0.6).abs() < 1e-12, "{force}");
         assert!((spring.force.z + 0.1).abs() < 1e-12, "{:?}", spring.force);
-        // When the sliding stops, only the spring is left.
+        // When the sliding stops, only the spring remains.
         let force = slide(law, &mut spring, 0.0, 1);
         assert!((force + 0.1).abs() < 1e-12, "{force}");
     }

@@ -19,8 +19,8 @@ pub struct Mindlin {
     #[schemars(transform = quantity("μ", "", "coefficient of friction").at_least(0.0))]
     pub coefficient: f64,
     /// Whether the spring keeps its displacement while the contact is released, and its force while
-    /// it is pressed harder. Then it never creates energy (Thornton, Cummins and Cleary, 2013;
-    /// `mindlin_rescale/force` of LAMMPS). If not, it always keeps its force.
+    /// it is pressed harder, so that it never creates energy (Thornton, Cummins and Cleary, 2013;
+    /// `mindlin_rescale/force` of LAMMPS). Otherwise it keeps its force.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub rescale: bool,
 }

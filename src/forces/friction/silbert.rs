@@ -29,8 +29,8 @@ pub struct SilbertFriction {
     )]
     pub damping: f64,
     /// Whether the spring keeps its displacement while the contact is released, and its force while
-    /// it is pressed harder. Then it never creates energy (Thornton, Cummins and Cleary, 2013;
-    /// `mindlin_rescale/force` of LAMMPS). If not, it always keeps its displacement.
+    /// it is pressed harder, so that it never creates energy (Thornton, Cummins and Cleary, 2013;
+    /// `mindlin_rescale/force` of LAMMPS). Otherwise it keeps its displacement.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub rescale: bool,
 }

@@ -140,7 +140,7 @@ impl LoadedSpring {
     }
 
     /// The tangential force (N), and the spring that remains: at a sliding contact it keeps the
-    /// length from which sticking would go on (Luding, Granular Matter 10, 235 (2008), section
+    /// length from which sticking would continue (Luding, Granular Matter 10, 235 (2008), section
     /// 2.3). Takes the square of the force (N2) and 1 / its root.
     #[inline(always)]
     pub(crate) fn capped(&self, squared: f64, inverse_root: f64) -> (Vector, Spring) {

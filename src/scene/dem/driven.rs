@@ -6,8 +6,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// A sphere that moves along a prescribed path, independent of forces: x(t) = x(0) + v t + A (sin(w
-/// t + p) - sin p). It keeps its initial spin. Other spheres collide with it as usual; it passes
-/// through walls, fixed spheres and other driven ones. It is never removed, may leave the bounds of
+/// t + p) - sin p). It keeps its initial spin. Other spheres collide with it; it passes through
+/// walls, fixed spheres and other driven ones. It is never removed, may leave the bounds of
 /// `guards`, and is ignored when spheres are checked to be at rest. A driven sphere from a feed
 /// follows its path from its entry on.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

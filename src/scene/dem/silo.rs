@@ -200,8 +200,7 @@ impl Hopper {
 pub struct Rest {
     /// Kinetic energy of all grains together (J), translation and rotation, below which they may be
     /// at rest. In addition, no single grain may have more than a hundredth of it or, with fewer
-    /// than a hundred grains, more than its equal share. Driven spheres do not count: a bed may be
-    /// at rest while they move.
+    /// than a hundred grains, more than its equal share. Driven spheres do not count.
     #[schemars(
         transform = quantity("E_{rest}", "J", "kinetic energy of spheres at rest").above(0.0)
     )]

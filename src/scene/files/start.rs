@@ -10,7 +10,7 @@ const COLUMNS: [&str; 10] = ["x", "y", "z", "vx", "vy", "vz", "wx", "wy", "wz", 
 const NEEDED: usize = 3;
 const RADIUS: usize = 9;
 
-/// Reads the spheres of a CSV file: columns `x`, `y`, `z` (m) and, if they are there, `vx`, `vy`,
+/// Reads the spheres of a CSV file: columns `x`, `y`, `z` (m) and optionally `vx`, `vy`,
 /// `vz` (m/s), `wx`, `wy`, `wz` (rad/s) and `radius` (m), in any order, named by the header line.
 ///
 /// A velocity or spin without a column is zero. An empty radius means the scene's radius. Blank

@@ -53,7 +53,7 @@ impl Scene {
 }
 
 impl Scene {
-    /// Whether all states that are asked for fit into memory.
+    /// Whether all states that are requested fit into memory.
     fn check_states(&self, problems: &mut Vec<Problem>) {
         let state = NUMBERS_OF_A_SPHERE * self.spheres.count as f64;
         let most = libm::floor(MOST_IN_STATES / state).max(1.0);

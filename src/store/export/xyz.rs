@@ -63,7 +63,7 @@ fn write_sphere(
     state: &Snapshot,
     sphere: usize,
 ) -> io::Result<()> {
-    // A chemical symbol is asked for; X stands for no element.
+    // The format needs a chemical symbol; X stands for no element.
     write!(file, "X")?;
     let numbers = state.position.row(sphere).into_iter();
     let numbers = numbers.chain([&record.radius[sphere], &record.mass[sphere]]);

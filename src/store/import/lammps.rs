@@ -1,4 +1,4 @@
-//! Text dumps of LAMMPS (`dump atom` and `dump custom`), of which LIGGGHTS writes the same.
+//! Text dumps of LAMMPS (`dump atom` and `dump custom`), which LIGGGHTS writes too.
 
 use super::FileLines;
 use crate::replay::{StateTime, WrittenState};

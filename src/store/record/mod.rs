@@ -73,7 +73,7 @@ pub fn write_record(record: &RunRecord, path: &Path) -> Result<(), StoreError> {
 /// fails.
 ///
 /// # Errors
-/// Those of [`write_record`].
+/// As for [`write_record`].
 pub fn write_record_and_drop_states(record: &mut RunRecord, path: &Path) -> Result<(), StoreError> {
     let content = content(record, path)?;
     record.snapshots = Vec::new();
@@ -115,7 +115,7 @@ pub fn read_record(path: &Path) -> Result<RunRecord, StoreError> {
 /// not unpacked, which makes this several times faster than [`read_record`].
 ///
 /// # Errors
-/// Those of [`read_record`].
+/// As for [`read_record`].
 pub fn read_record_header(path: &Path) -> Result<RecordHeader, StoreError> {
     read::Reader::open(path)?.header()
 }

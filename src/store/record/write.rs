@@ -132,7 +132,7 @@ fn start(group: &mut GroupBuilder, spheres: &[StartSphere]) -> Result<(), String
     }
     let radius = |it: &StartSphere| it.radius.unwrap_or(f64::NAN);
     let values: Vec<f64> = spheres.iter().map(radius).collect();
-    let description = "Radius of every sphere; not a number for that of the scene";
+    let description = "Radius of every sphere; not a number for the scene's radius";
     let quantity = StoredQuantity("radius", "m", description);
     dataset(group, quantity, &[spheres.len()], &values);
     Ok(())

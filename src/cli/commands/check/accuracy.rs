@@ -1,4 +1,4 @@
-//! What a study of accuracy would run.
+//! The runs of a study of accuracy.
 
 use super::{Arguments, ForecastAnswer, TRIAL_TIME, describe_grid, effects, line};
 use crate::cli::console::Console;
@@ -87,7 +87,7 @@ fn describe(study: &AccuracyStudy, comparison: &Comparison, console: &Console) {
     }
 }
 
-/// What `--json` prints.
+/// The `--json` result.
 #[derive(Serialize)]
 struct Answer<'a> {
     file: &'a Path,

@@ -1,4 +1,4 @@
-//! What a study of stability would run.
+//! The runs of a study of stability.
 
 use super::{Arguments, ForecastAnswer, describe_grid, effects, line, print_forecast};
 use crate::cli::console::Console;
@@ -72,7 +72,7 @@ fn describe(study: &StabilityStudy) -> String {
 struct Span {
     integrator: String,
     runs: usize,
-    /// Least and largest time step over its limit; none where nothing limits the step.
+    /// Least and largest time step over its limit; `None` if nothing limits the step.
     least_ratio: Option<f64>,
     largest_ratio: Option<f64>,
 }
@@ -107,7 +107,7 @@ impl Span {
     }
 }
 
-/// What `--json` prints.
+/// The `--json` result.
 #[derive(Serialize)]
 struct Answer<'a> {
     file: &'a Path,

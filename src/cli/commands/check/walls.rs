@@ -27,7 +27,7 @@ pub(super) fn weakest(jobs: &[Job]) -> Option<Walls<'_>> {
 }
 
 impl Walls<'_> {
-    /// Speed that the wall holds over that of the fastest impact.
+    /// Speed that the wall holds over the speed of the fastest impact.
     fn margin(&self) -> f64 {
         self.wall.speed / self.impact
     }
@@ -79,7 +79,7 @@ impl Walls<'_> {
     }
 }
 
-/// What `--json` prints.
+/// The `--json` result.
 #[derive(Serialize)]
 pub(super) struct Answer {
     /// Speed above which a sphere squeezes through, or breaks the overlap guard (m/s); and the

@@ -9,7 +9,7 @@ use phase::scene::Scene;
 use phase::sweep::{Folder, FolderError, Labelled, Labelling, find_dumps};
 use std::path::{Path, PathBuf};
 
-/// Labels the dumps of a folder, writes the tables there and prints what they say.
+/// Labels the dumps of a folder, writes the tables there and prints a summary.
 pub(super) fn label(
     folder: &Path,
     scene: &Path,

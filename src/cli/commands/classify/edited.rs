@@ -45,15 +45,15 @@ pub(super) fn label(
     })
 }
 
-/// A folder whose runs are to be labelled anew, and the right to change it.
+/// A folder whose runs are to be labelled again, and the right to change it.
 struct ToLabel {
     sweep: Sweep,
     jobs: Vec<Job>,
     _access: Access,
 }
 
-/// The sweep of a folder with the thresholds of an edited one, which it keeps, so that the labels
-/// are always those that it says. Refuses one that has other runs.
+/// The sweep of a folder with the thresholds of an edited sweep. The folder keeps it, so that
+/// labels and thresholds always agree. Refuses an edited sweep with other runs.
 fn edit(
     folder: &Folder,
     sweep: Sweep,
@@ -101,7 +101,7 @@ fn refined_alike(edited: &Sweep, sweep: &Sweep) -> Sweep {
 }
 
 /// Refuses to change a folder with records that cannot be labelled: their labels would be lost, or
-/// of other thresholds than the sweep says.
+/// not follow from the sweep's thresholds.
 fn refuse_problems(folder: &Folder, labelling: &Labelling) -> Result<(), Failure> {
     let Some(first) = labelling.problems.first() else {
         return Ok(());

@@ -1,4 +1,4 @@
-//! What is compared: records, files of other programs, tables of earlier comparisons.
+//! Inputs of a comparison: records, files of other programs, tables of earlier comparisons.
 
 use super::table::{self, Column};
 use crate::cli::exit::Failure;
@@ -19,8 +19,7 @@ pub(super) enum Input {
     Table(Vec<Column>),
 }
 
-/// Reads all files. Those of other programs take the scene that is given, or that of the first
-/// record.
+/// Reads all files. Files of other programs take the given scene, or else the first record's.
 pub(super) fn read(paths: &[PathBuf], scene: Option<&Path>) -> Result<Vec<Input>, Failure> {
     let is_table = |path: &&PathBuf| {
         path.extension()
@@ -41,8 +40,8 @@ pub(super) fn read(paths: &[PathBuf], scene: Option<&Path>) -> Result<Vec<Input>
     Ok(inputs)
 }
 
-/// The numbers of all inputs, one column for each record: of drainages what is measured of their
-/// states within `times`, of other runs what their sieves measure.
+/// The numbers of all inputs, one column for each record: for drainages measurements on their
+/// states within `times`, for other runs the measures of their sieves.
 pub(super) fn columns(inputs: &[Input], times: Option<[f64; 2]>) -> Result<Vec<Column>, Failure> {
     let of_runs = inputs.iter().filter_map(|input| match input {
         Input::Run(path, record) => Some((path, &**record)),

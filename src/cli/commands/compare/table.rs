@@ -10,7 +10,7 @@ use std::path::Path;
 pub(super) struct Column {
     pub(super) name: String,
     pub(super) values: Vec<([String; 2], Option<Estimate>)>,
-    /// First and last time (s) since the opening of what was measured, of the record of a drainage.
+    /// First and last time (s) since the opening between which a drainage was measured.
     pub(super) window: Option<[f64; 2]>,
 }
 
@@ -19,7 +19,7 @@ pub(super) const QUANTITY: &str = "quantity";
 
 const COLUMNS: [&str; 5] = [QUANTITY, "unit", "record", "value", "half_width"];
 
-/// Refuses two records of one name, which a table could not tell apart.
+/// Refuses two records of one name: a table could not distinguish them.
 pub(super) fn check(names: &[String]) -> Result<(), Failure> {
     let mut again = names.iter().enumerate();
     match again.find(|(place, name)| names[..*place].contains(name)) {

@@ -92,7 +92,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
 }
 
 /// The path of a scene as the new file must write it: relative to the folder of the new file, which
-/// is there. On the command line it is relative to the current folder.
+/// exists. On the command line it is relative to the current folder.
 fn from_folder_of(file: &Path, scene: &Path) -> PathBuf {
     let folder = file.parent().unwrap_or(Path::new(""));
     if scene.is_absolute() || folder.as_os_str().is_empty() {
@@ -147,7 +147,7 @@ fn sweep_of_table() -> String {
     for line in SCENE.lines().filter(is_accuracy) {
         text += &format!("{line}\n\n");
     }
-    // The scene's own heading and title are those of the sweep here.
+    // The sweep has its own heading and title.
     let tables = SCENE.lines().skip_while(|line| !line.starts_with('['));
     for line in tables {
         text += &match line.strip_prefix('[') {

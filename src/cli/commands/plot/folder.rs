@@ -57,7 +57,7 @@ impl FolderAnswer {
         }
     }
 
-    /// Draws the figures of a folder, the default ones if none are asked for. One that cannot be
+    /// Draws the figures of a folder, the default ones if none is requested. One that cannot be
     /// drawn does not stop the others.
     pub(super) fn of(
         folder: &Folder,

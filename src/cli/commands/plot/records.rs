@@ -12,7 +12,7 @@ use phase::store::{self, DataSet};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
-/// The default figures of a drainage; the default figures of other runs are those of one record.
+/// The default figures of a drainage; other runs have the default figures of one record.
 const DEFAULT_OF_DRAINAGE: [&str; 2] = ["surface-angle", "radial-distribution"];
 
 /// The figure that any record of discrete elements has, whatever its family.
@@ -43,8 +43,8 @@ pub(super) fn drawable(path: &Path) -> Result<Vec<&'static Figure>, Failure> {
     Ok(figures)
 }
 
-/// Draws figures of one record, or of several beside each other: NAME.h5 gives NAME-tracks.svg and
-/// .png; several give tracks.svg and .png, in the folder of the first or that which is asked for.
+/// Draws figures of one record, or of several side by side: NAME.h5 gives NAME-tracks.svg and
+/// .png; several give tracks.svg and .png, in the folder of the first or the requested one.
 /// Gives the figures that could not be drawn, and why.
 pub(super) fn draw(
     paths: &[PathBuf],

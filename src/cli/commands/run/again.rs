@@ -13,18 +13,18 @@ pub(super) struct Original {
     folder: Folder,
     axes: Vec<Axis>,
     pub(super) job: Job,
-    /// What the sweep's record says, if it has one.
+    /// The sweep's record, if it has one.
     before: Option<Before>,
 }
 
-/// What a run that is made again is compared with.
+/// The earlier result with which a repeated run is compared.
 struct Before {
     digest: String,
     program: Program,
 }
 
 impl Before {
-    /// Of a record, if it is there.
+    /// Of a record, if it exists.
     fn read(path: &Path) -> Result<Option<Self>, Failure> {
         if !path.exists() {
             return Ok(None);
@@ -107,8 +107,7 @@ impl Original {
         self.folder.record(&self.job.id)
     }
 
-    /// Refuses to write over the record of the sweep, which would then have another output than
-    /// the sweep asks for.
+    /// Refuses to replace the record of the sweep, whose output would then differ from the sweep's.
     pub(super) fn refuse_to_replace(&self, path: &Path) -> Result<(), Failure> {
         let same = |a: &Path, b: &Path| {
             let (a, b) = (a.canonicalize(), b.canonicalize());
@@ -123,7 +122,7 @@ impl Original {
         Ok(())
     }
 
-    /// Makes sure that a run gave the same bits as in the sweep. None if the sweep has no record of
+    /// Checks that a run gave the same bits as in the sweep. `None` if the sweep has no record of
     /// it.
     pub(super) fn compare(
         &self,

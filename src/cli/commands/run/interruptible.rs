@@ -1,4 +1,4 @@
-//! A run that can be interrupted and goes on from its checkpoint.
+//! A run that can be interrupted and continued from its checkpoint.
 
 use crate::cli::console::Console;
 use crate::cli::exit::Failure;
@@ -18,12 +18,12 @@ pub(super) struct Ran {
     pub(super) record: RunRecord,
     /// How long it took now (s).
     pub(super) seconds: f64,
-    /// Time (s) of the checkpoint that it went on from.
+    /// Time (s) of the checkpoint from which it continued.
     pub(super) resumed_from: Option<f64>,
 }
 
-/// Runs a scene on that many threads, with a progress bar and checkpoints. None if it was
-/// interrupted: says how to go on.
+/// Runs a scene on this number of threads, with a progress bar and checkpoints. If it is
+/// interrupted, says how to continue and returns `None`.
 pub(super) fn run(
     scene: &Scene,
     threads: usize,
@@ -99,7 +99,7 @@ pub(super) fn run(
     Ok(None)
 }
 
-/// Takes a run to its checkpoint, if that is asked for and there is one, and says where it begins.
+/// Continues a run from its checkpoint, if requested and present, and says where it begins.
 fn begin(
     run: &mut Run,
     checkpoints: &Checkpoints,

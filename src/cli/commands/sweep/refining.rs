@@ -66,7 +66,7 @@ impl Rounds<'_> {
 /// Shows rounds to people.
 struct Watcher<'a> {
     rounds: &'a Rounds<'a>,
-    /// What was run so far, but for the report.
+    /// The runs so far, for the report.
     run: Option<Run>,
     /// When progress was last reported.
     told: Instant,

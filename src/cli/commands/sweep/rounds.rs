@@ -75,11 +75,11 @@ impl Rounds<'_> {
 pub(super) struct Part {
     /// Printed before its progress; may be empty.
     pub(super) head: String,
-    /// Most jobs of the whole, if these are more than those of the plan.
+    /// Largest number of jobs in total, if larger than the plan's.
     pub(super) jobs: Option<usize>,
 }
 
-/// What was run now.
+/// The runs made now.
 #[derive(Default)]
 pub(super) struct Run {
     pub(super) report: Report,

@@ -30,7 +30,7 @@ impl FromStr for Moment {
     }
 }
 
-/// What the command line calls it.
+/// Its name on the command line.
 fn key(kind: MilestoneKind) -> String {
     kind.name().replace(' ', "-")
 }
@@ -155,7 +155,7 @@ fn since<'a>(
         })
 }
 
-/// What happened between a state and the one before it.
+/// The events between a state and the one before it.
 pub(super) fn news<'a>(
     record: &'a RunRecord,
     state: &Snapshot,

@@ -18,14 +18,14 @@ pub(super) struct Run<'a> {
     pub(super) shown: Vec<&'a Snapshot>,
     /// Time of the run (s) from which times count.
     pub(super) origin: f64,
-    /// What the picture calls it.
+    /// Its name in the picture.
     pub(super) label: Option<String>,
     /// What distinguishes it from other runs, apart from title and place in a sweep.
     pub(super) differs: Vec<String>,
 }
 
 impl Run<'_> {
-    /// What the picture calls it: its label, or title and place in a sweep.
+    /// Its name in the picture: its label, or title and place in a sweep.
     pub(super) fn names(&self) -> Vec<String> {
         if let Some(label) = &self.label {
             return vec![label.clone()];
@@ -60,7 +60,7 @@ impl<'a> Sheets<'a> {
             Color::Height => ColorBy::height_of(all()),
             Color::Radius => ColorBy::radius_of(runs.iter().flat_map(|run| &run.record.radius)),
             Color::Index => ColorBy::Index,
-            // Those of each run.
+            // Each run has its own.
             Color::Layer | Color::PackingFraction | Color::None => ColorBy::Nothing,
         };
         let color = |run| own_color(run, arguments.color).unwrap_or_else(|| color.clone());
@@ -162,7 +162,7 @@ impl<'a> Sheets<'a> {
         self.sheets[0].picture(panels)
     }
 
-    /// One run has its title above all panels, of several each panel says which it is of.
+    /// A single run has its title above all panels; with several runs each panel names its own.
     fn caption(&self, run: &Run<'_>, state: &Snapshot) -> Vec<String> {
         let time = words::caption(run.record, state, run.origin);
         if self.runs.len() == 1 {
@@ -192,7 +192,7 @@ pub(super) fn on_all_cores<T: Sync, U: Send + Sync>(
     Ok(work::map(work::default_workers(), items, draw)?)
 }
 
-/// Ends of what is seen along x and z (m), if the command line says them.
+/// Ends of the visible region along x and z (m), if the command line gives them.
 fn window(numbers: &[f64]) -> Result<Option<[[f64; 2]; 2]>, Failure> {
     match *numbers {
         [] => Ok(None),

@@ -37,7 +37,7 @@ pub(super) struct Target {
 }
 
 impl Target {
-    /// The file that the command line asks for, of the kind that its name says.
+    /// The file on the command line, of the kind that its name indicates.
     pub(super) fn new(arguments: &Arguments) -> Result<Self, Failure> {
         let path = arguments.animate.as_ref().or(arguments.out.as_ref());
         if arguments.records.len() > 1 && path.is_none() {
@@ -63,8 +63,7 @@ impl Target {
         Ok(Self { path, kind })
     }
 
-    /// Refuses to write over a record, or over anything but a picture of the same kind, of this
-    /// program.
+    /// Refuses to replace anything but a picture of the same kind that this program wrote.
     pub(super) fn check(&self, records: &[PathBuf]) -> Result<(), Failure> {
         let refused = |why: &str| {
             let path = self.path.display();

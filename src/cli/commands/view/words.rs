@@ -1,4 +1,4 @@
-//! What is written around the panels, and into the metadata.
+//! Text around the panels, and in the metadata.
 
 use super::moment::{self, seconds};
 use phase::observe::Snapshot;
@@ -91,7 +91,7 @@ fn lines(parts: &[String]) -> Vec<String> {
     lines
 }
 
-/// What the metadata of a picture says.
+/// The text in the metadata of a picture.
 pub(super) fn texts(record: &RunRecord) -> Vec<(&'static str, String)> {
     vec![
         ("Title", record.scene.title.clone().unwrap_or_default()),
