@@ -139,9 +139,14 @@ fn kind_of(limit: &Limit) -> &'static str {
     }
 }
 
-/// The steps chosen for `dt = "auto"`, and the limits that decided.
+/// The steps that were chosen where the scene, or that of a variant, says `dt = "auto"`, and from
+/// which limits.
 pub(super) fn describe_choice(sweep: &Sweep, jobs: &[Job]) -> Option<String> {
-    sweep.scene.time.safety_factor?;
+    let is_chosen = |job: &&Job| sweep.start_of(&job.values).time.safety_factor.is_some();
+    let jobs: Vec<&Job> = jobs.iter().filter(is_chosen).collect();
+    if jobs.is_empty() {
+        return None;
+    }
     let steps = jobs.iter().map(|job| job.scene.time.dt);
     let (low, high) = steps.fold((f64::INFINITY, 0.0_f64), |(low, high), dt| {
         (low.min(dt), high.max(dt))

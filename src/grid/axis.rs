@@ -4,6 +4,7 @@ use super::spacing::{self, MOST_VALUES};
 use super::{VARIANT, Variant};
 use crate::document::unit;
 use crate::document::{Problem, number, one_of};
+use crate::refine::Borders;
 use crate::scene::{Scene, leaf};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -109,8 +110,8 @@ enum Spacing {
     Log,
 }
 
-/// Other columns in the tables of results; no axis may have such a name.
-const RESERVED: [&str; 19] = [
+/// Other columns in the tables of results than those of borders; no axis may have such a name.
+const RESERVED: [&str; 10] = [
     VARIANT,
     "id",
     "setting",
@@ -121,15 +122,6 @@ const RESERVED: [&str; 19] = [
     "settle_time",
     "agreement",
     "steady",
-    "along",
-    "below",
-    "above",
-    "low_68",
-    "high_68",
-    "low_95",
-    "high_95",
-    "width_95",
-    "critical_rotation",
 ];
 
 impl AxisEntry {
@@ -288,7 +280,7 @@ fn check_name(name: &str, path: &str) -> Result<(), Problem> {
         let help = "use letters, digits, `_`, `-` and `.`";
         return Err(Problem::new(path, message).help(help));
     }
-    if RESERVED.contains(&name) {
+    if RESERVED.contains(&name) || Borders::COLUMNS.contains(&name) {
         let message = format!("the tables of results have a column \"{name}\" of their own");
         return Err(Problem::new(path, message).help("choose another `name`"));
     }

@@ -66,13 +66,30 @@ pub(crate) fn expand_axes(
     axes
 }
 
-/// A sweep has so many axes at most.
+/// A sweep has so many axes at most, that of its variants among them.
 pub(crate) fn check_number_of_axes(axes: &[Axis], problems: &mut Vec<Problem>) {
-    if axes.len() > MOST_AXES {
-        let message = format!("{} axes are too many", axes.len());
-        let problem = Problem::new(format!("axis[{MOST_AXES}]"), message);
-        problems.push(problem.help(format!("{MOST_AXES} are the most")));
+    if axes.len() <= MOST_AXES {
+        return;
     }
+    let numbers = axes.iter().filter(|axis| !axis.is_of_variants()).count();
+    let (path, message) = match numbers {
+        numbers if numbers == axes.len() => {
+            let message = format!("{numbers} axes are too many");
+            (format!("axis[{MOST_AXES}]"), message)
+        }
+        numbers => {
+            let message = format!("{numbers} axes and the variants are too many");
+            // Beside so many axes the variants alone are one too many.
+            let path = match numbers > MOST_AXES {
+                true => format!("axis[{MOST_AXES}]"),
+                false => "variant[0]".to_owned(),
+            };
+            (path, message)
+        }
+    };
+    let help =
+        format!("{MOST_AXES} are the most; all variants together count as one, seeds as none");
+    problems.push(Problem::new(path, message).help(help));
 }
 
 /// No two axes may have the same key or name.

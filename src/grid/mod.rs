@@ -15,7 +15,7 @@ pub(crate) use file::{
     expand_axes, or_path,
 };
 pub use points::{PointError, describe};
-pub(crate) use points::{PointScenes, describe_point, number_of_points, points};
+pub(crate) use points::{PointScenes, describe_point, number_of_points, points, variant_at};
 pub(crate) use seeds::{SeedsEntry, expand_seeds};
 pub(crate) use variant::{
     SceneTree, VariantEntry, check_change, check_variants, expand_variants, nothing_to_leave_out,

@@ -1,6 +1,6 @@
 //! The points of a grid and their scenes.
 
-use super::Axis;
+use super::{Axis, Variant};
 use crate::document::{Problem, number};
 use crate::scene::{Scene, Template};
 
@@ -34,6 +34,23 @@ pub(crate) fn point_at(axes: &[Axis], mut index: usize) -> Vec<f64> {
     let mut values: Vec<f64> = from_last.collect();
     values.reverse();
     values
+}
+
+/// The variant of a point, if the grid has variants.
+pub(crate) fn variant_at<'a>(axes: &'a [Axis], values: &[f64]) -> Option<&'a Variant> {
+    let mut pairs = axes.iter().zip(values);
+    pairs.find_map(|(axis, &value)| axis.variant(value))
+}
+
+/// The values of the keys at a point: those of the axes times the factors of its variant.
+fn values_of_keys(axes: &[Axis], values: &[f64]) -> Vec<f64> {
+    let Some(variant) = variant_at(axes, values) else {
+        return values.to_vec();
+    };
+    let pairs = axes.iter().zip(values);
+    pairs
+        .map(|(axis, value)| variant.factor(&axis.name) * value)
+        .collect()
 }
 
 /// Number of points of a grid.
@@ -70,16 +87,11 @@ impl<'a> PointScenes<'a> {
 
     /// The scene of a point. Only the ranges of its numbers are checked.
     pub(crate) fn unchecked(&mut self, values: &[f64]) -> Result<Scene, PointError> {
-        let pairs = || self.axes.iter().zip(values);
-        let variant = pairs().find_map(|(axis, &value)| Some((axis.variant(value)?, value)));
-        let factor = |axis: &Axis| {
-            let scale = variant.into_iter().flat_map(|(it, _)| &it.scale);
-            let own = scale.filter(|(name, _)| *name == axis.name);
-            own.map(|(_, factor)| factor).product::<f64>()
-        };
-        let numbers = pairs().filter(|(axis, _)| !axis.is_of_variants());
-        let numbers: Vec<f64> = numbers.map(|(axis, value)| factor(axis) * value).collect();
-        let template = variant.map_or(0, |(_, place)| place as usize);
+        let scaled = self.axes.iter().zip(values_of_keys(self.axes, values));
+        let (variants, numbers): (Vec<_>, Vec<_>) =
+            scaled.partition(|(axis, _)| axis.is_of_variants());
+        let numbers: Vec<f64> = numbers.into_iter().map(|(_, value)| value).collect();
+        let template = variants.first().map_or(0, |(_, place)| *place as usize);
         let scene = self.templates[template].with(&numbers);
         scene.map_err(|problems| PointError::new(self.axes, values, problems))
     }

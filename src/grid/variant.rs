@@ -27,13 +27,21 @@ pub struct Variant {
     pub scene: Scene,
 }
 
+impl Variant {
+    /// The factor on the values of an axis, by its name.
+    pub fn factor(&self, axis: &str) -> f64 {
+        let own = self.scale.iter().filter(|(name, _)| name == axis);
+        own.map(|(_, factor)| factor).product()
+    }
+}
+
 /// A named setting of several keys, as files write it.
 #[derive(Deserialize, JsonSchema)]
 pub(crate) struct VariantEntry {
     /// Name, as in tables and figures.
     pub(crate) name: String,
-    /// Keys of the scene and their values, such as `"time.dt" = 1e-4`, or whole tables, such as
-    /// `friction = { law = "coulomb", ... }`.
+    /// Keys of the scene and their values, such as `"time.dt" = 1e-4`. A table, such as
+    /// `friction = { law = "coulomb", ... }`, replaces the whole table of the scene.
     #[serde(default)]
     set: BTreeMap<String, Value>,
     /// Tables or keys of the scene that are left out, such as `"spin_damping"`.

@@ -1,10 +1,11 @@
 //! Which effects a scene needs: how many labels change without each, and what that saves.
 
 use super::axes::Plot;
+use super::canvas::Drawn;
 use super::legend::{LegendEntry, LegendKey};
 use super::page::{FigurePage, PagePlan, PanelFrame};
 use super::scale::AxisSpan;
-use super::style::{Drawn, px};
+use super::style::px;
 use super::svg::Svg;
 use super::ticks::Ticks;
 use super::{PlotError, palette};

@@ -1,8 +1,8 @@
 //! The frame of a panel with the ticks of its scales.
 
-use super::canvas::Canvas;
+use super::canvas::{Canvas, Drawn, Failed, FigureSheet};
 use super::scale::AxisScale;
-use super::style::{self, Drawn, Failed, FigureSheet, TICK, frame, letters};
+use super::style::{self, TICK, frame, letters};
 use plotters::chart::{ChartBuilder, ChartContext, LabelAreaPosition};
 use plotters::coord::cartesian::Cartesian2d;
 use plotters::drawing::DrawingArea;

@@ -10,6 +10,7 @@ use super::svg::Svg;
 use super::{Figure, PlotError, Source};
 use crate::beverloo::{self, Discharge, Fit, GrainBed, Opening};
 use crate::classify::{DRAINAGE, Family, Point, SILO, Verdict};
+use crate::grid::variant_at;
 use crate::scene::{Scene, Units};
 use crate::statistics::Estimate;
 use std::f64::consts::PI;
@@ -80,6 +81,17 @@ impl VariedOutlet {
         Ok((outlet, axis))
     }
 
+    /// Width of an opening over the value of the axis on a line, whose variant may scale it.
+    fn width_of(&self, source: &Source<'_>, line: &PointSeries) -> f64 {
+        let axes = &source.sweep.axes;
+        let name = axes.iter().find(|axis| axis.key == self.key);
+        let point = line.points.first();
+        let factor = name.zip(point).and_then(|(axis, (_, point))| {
+            Some(variant_at(axes, &point.values)?.factor(&axis.name))
+        });
+        factor.unwrap_or(1.0) * self.width
+    }
+
     /// Number n of grains of a bed of that packing fraction: per area (1/m2) or volume (1/m3), as
     /// the law has it.
     fn number_density(&self, packing: f64, scene: &Scene) -> f64 {
@@ -128,7 +140,7 @@ fn draw(source: &Source<'_>) -> Result<Svg, PlotError> {
         ..ChartPanel::default()
     };
     for (line, fitted) in lines.iter().zip(&fitted) {
-        let width = outlet.width / axis.factor;
+        let width = outlet.width_of(source, line) / axis.factor;
         panel.lines.push(curve(fitted, line, width, panel.x.1));
         panel.bars.extend(bars(source, outlet, line, axis.factor));
     }
@@ -137,7 +149,7 @@ fn draw(source: &Source<'_>) -> Result<Svg, PlotError> {
     let tops = bars.chain(curves.map(|point| point.1));
     panel.y = (0.0, 1.03 * tops.fold(0.0, f64::max));
     let legend = lines.iter().zip(&fitted);
-    let units = source.sweep.scene.units();
+    let units = source.sweep.units();
     Chart {
         name: NAME,
         common: vec![law(outlet)],
@@ -205,9 +217,10 @@ fn fitted(
                       with [rest], if it is a silo, and snapshots";
         fail(reason.to_owned())
     })?;
+    let width_of_value = outlet.width_of(source, line);
     let measured = runs(source, line).filter_map(|(opening, verdict)| {
         let rate = verdict.value(outlet.rate)?;
-        let width = outlet.width * opening;
+        let width = width_of_value * opening;
         Some(Discharge { width, rate })
     });
     let measured: Vec<Discharge> = measured.collect();

@@ -5,13 +5,13 @@
 //! PNG, which has [`PNG_SCALE`] of them per CSS pixel: no hairlines between cells, no blur.
 
 use super::PlotError;
-use super::style::{self, FigureSheet};
 use super::text::{SUBSCRIPT_SIZE, plain, runs};
 use crate::fonts::{self, FAMILY};
 use crate::markup::escape;
 use crate::render::Image;
 use base64::Engine;
-use plotters::drawing::IntoDrawingArea;
+use plotters::coord::Shift;
+use plotters::drawing::{DrawingArea, DrawingAreaErrorKind, IntoDrawingArea};
 use plotters_backend::text_anchor::{HPos, VPos};
 use plotters_backend::{
     BackendColor, BackendCoord, BackendStyle, BackendTextStyle, DrawingBackend, DrawingErrorKind,
@@ -28,6 +28,15 @@ pub(super) const PNG_SCALE: f32 = 2.5;
 
 /// Units of the canvas per pixel of the PNG.
 pub(super) const SNAP: i32 = 4;
+
+/// The sheet a figure is drawn on.
+pub(super) type FigureSheet<'a> = DrawingArea<Canvas<'a>, Shift>;
+
+/// Why drawing failed.
+pub(super) type Failed = DrawingAreaErrorKind<Infallible>;
+
+/// Result of drawing.
+pub(super) type Drawn = Result<(), Failed>;
 
 type CanvasResult = Result<(), DrawingErrorKind<Infallible>>;
 
@@ -50,7 +59,7 @@ pub(super) struct Canvas<'a> {
 /// Draws on a canvas of that size.
 pub(super) fn draw(
     (width, height): (i32, i32),
-    content: impl FnOnce(&FigureSheet<'_>) -> style::Drawn,
+    content: impl FnOnce(&FigureSheet<'_>) -> Drawn,
 ) -> Result<Body, PlotError> {
     let mut body = Body {
         size: (width as u32, height as u32),

@@ -1,11 +1,11 @@
 //! A chart: lines over a horizontal axis, in panels of equal size.
 
-use super::canvas::Body;
+use super::canvas::{Body, Drawn, FigureSheet};
 use super::legend::{LegendEntry, LegendKey};
 use super::page::{FigurePage, PagePlan, PanelFrame};
 use super::scale::AxisSpan;
 use super::spacing::AxisSpacing;
-use super::style::{self, Drawn, FigureSheet, px};
+use super::style::{self, px};
 use super::svg::{Origin, Svg};
 use super::ticks::Ticks;
 use super::{PlotError, palette};

@@ -3,6 +3,7 @@
 use super::{PlotError, Source, grid, numbers};
 use crate::classify::Label;
 use crate::classify::{LabelRow, Point};
+use crate::grid::{Axis, variant_at};
 use crate::sweep::Selection;
 use std::cmp::Ordering;
 
@@ -167,10 +168,7 @@ fn nearest_to_middle<'p>(source: &Source<'_>, points: &[&'p Point]) -> Option<&'
 /// The place of a run in the sweep, with markup, such as `$r$ = 4 mm` and `$Ω$ = 8 rad/s`. The seed
 /// is named only if a point asks for one.
 pub(super) fn place(source: &Source<'_>, row: &LabelRow) -> Vec<String> {
-    let axes = source.sweep.axes.iter().zip(&row.values);
-    let mut parts: Vec<String> = axes
-        .map(|(axis, &value)| quantity(source, &axis.key, &axis.name, value))
-        .collect();
+    let mut parts = quantities(source, &row.values);
     if source.points.iter().any(|point| point.seed.is_some()) {
         parts.push(format!("seed {}", row.seed));
     }
@@ -185,16 +183,37 @@ pub(super) fn plainly(source: &Source<'_>, row: &LabelRow) -> String {
     values.chain(seed).collect::<Vec<_>>().join(", ")
 }
 
-/// `symbol = value unit`, with as many digits as tell it from the other values of its axis; small
-/// lengths in millimetres.
-pub(super) fn quantity(source: &Source<'_>, key: &str, name: &str, value: f64) -> String {
-    let axes = source.sweep.axes.iter().filter(|axis| axis.key == key);
-    if let Some(variant) = axes.clone().find_map(|axis| axis.variant(value)) {
-        return variant.name.clone();
-    }
-    let others: Vec<f64> = axes.flat_map(|axis| axis.values.iter().copied()).collect();
+/// A point of the sweep: what each axis is there, with markup.
+pub(super) fn quantities(source: &Source<'_>, values: &[f64]) -> Vec<String> {
+    quantities_of(source, &source.sweep.axes, values)
+}
+
+/// The same of some axes, which have these values.
+pub(super) fn quantities_of(source: &Source<'_>, axes: &[Axis], values: &[f64]) -> Vec<String> {
+    let variant = variant_at(axes, values);
+    let pairs = axes.iter().zip(values);
+    pairs
+        .map(|(axis, &value)| match axis.variant(value) {
+            Some(variant) => variant.name.clone(),
+            None => {
+                let factor = variant.map_or(1.0, |variant| variant.factor(&axis.name));
+                let others: Vec<f64> = axis.values.iter().map(|it| it * factor).collect();
+                among(source, (&axis.key, &axis.name), value * factor, &others)
+            }
+        })
+        .collect()
+}
+
+/// `symbol = value unit` of a key.
+pub(super) fn quantity(source: &Source<'_>, key: &str, value: f64) -> String {
+    among(source, (key, key), value, &[])
+}
+
+/// `symbol = value unit` of a key, with as many digits as tell it from others; small lengths in
+/// millimetres.
+fn among(source: &Source<'_>, (key, name): (&str, &str), value: f64, others: &[f64]) -> String {
     let Some(notation) = source.sweep.scene.notation(key) else {
-        return format!("{name} = {}", numbers::among(value, &others));
+        return format!("{name} = {}", numbers::among(value, others));
     };
     let (factor, unit) = match notation.unit {
         "m" if value.abs() < 0.1 => (1e3, "mm"),

@@ -1,9 +1,10 @@
 //! The colour bar: which colour stands for which value.
 
+use super::canvas::{Drawn, FigureSheet};
 use super::chart::ends;
 use super::palette;
 use super::scale::{AxisRoom, AxisScale, AxisSpan};
-use super::style::{self, Drawn, FigureSheet, LABEL, SMALL, TICK, frame, letters, px};
+use super::style::{self, LABEL, SMALL, TICK, frame, letters, px};
 use super::text;
 use crate::color::ColorMap;
 use plotters::coord::ranged1d::Ranged;

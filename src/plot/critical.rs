@@ -2,10 +2,12 @@
 
 use super::chart::samples;
 use super::contour::{Nodes, Piece};
-use super::diagram::{PanelCurve, Stroke};
 use super::grid::{GridAxis, GridPanel, PanelGrid};
+use super::panel_curve::{PanelCurve, Stroke};
 use super::scale::AxisSpan;
+use crate::grid::Variant;
 use crate::scene::Scene;
+use crate::sweep::Sweep;
 use crate::theory::{critical_rotation, critical_rotation_with_friction};
 
 const OMEGA: &str = "swirl.omega";
@@ -14,82 +16,113 @@ const OMEGA: &str = "swirl.omega";
 pub(super) const WORDS: [&str; 2] = ["critical rotation $Ω_c$", "with friction, $Ω_μ$"];
 
 /// The curves Omega = Omega_c and Omega = Omega_mu inside a panel, in shown values; empty if the
-/// figure has no axis for Omega or the scene lacks what they need. What a panel is for counts
-/// instead of the scene's value. On a strip y goes from 0 to 1.
+/// figure has no axis for Omega or the scene lacks what they need. What a panel or a variant is for
+/// counts instead of the scene's value. On a strip y goes from 0 to 1.
 pub(super) fn curves<P>(
-    scene: &Scene,
+    sweep: &Sweep,
     grid: &PanelGrid<P>,
     panel: &GridPanel<P>,
 ) -> Vec<PanelCurve> {
-    let upright = grid.y.as_ref().is_some_and(|axis| axis.key == OMEGA);
-    let (omega, other) = match &grid.y {
-        Some(y) if y.key == OMEGA => (y, Some(&grid.x)),
-        y if grid.x.key == OMEGA => (&grid.x, y.as_ref()),
+    let (omega, other, upright) = match grid.axes(panel) {
+        (x, Some(y)) if y.key == OMEGA => (y, Some(x), true),
+        (x, y) if x.key == OMEGA => (x, y, false),
         _ => return Vec::new(),
     };
-    let along = |critical: &dyn Fn(f64) -> Option<f64>| {
-        let mut pieces = pieces(omega, other, critical);
+    let parts: Vec<(Option<f64>, Vec<f64>)> = match other {
+        Some(axis) if !axis.words.is_empty() => {
+            let edges = axis.edges();
+            let cells = axis.values.iter().zip(edges.windows(2));
+            let part = |(place, ends): (&f64, &[f64])| (Some(*place), ends.to_vec());
+            cells.map(part).collect()
+        }
+        _ => {
+            let place = |fraction| other.map_or(fraction, |axis| axis.along(fraction));
+            vec![(grid.variant(panel), samples(0.0, 1.0).map(place).collect())]
+        }
+    };
+    let curve = |critical: fn(&PanelScene<'_, P>, f64) -> Option<f64>, stroke: Stroke| {
+        let of_part = |(variant, places): &(Option<f64>, Vec<f64>)| {
+            let scene = PanelScene {
+                scene: sweep.scene_of_variant(*variant),
+                variant: variant.and_then(|place| sweep.variant(place)),
+                grid,
+                panel,
+                other,
+            };
+            pieces(omega, places, &|place| {
+                Some(critical(&scene, place)? / scene.factor(omega))
+            })
+        };
+        let mut pieces: Vec<Piece> = parts.iter().flat_map(of_part).collect();
         if !upright {
             let points = pieces.iter_mut().flatten();
             points.for_each(|(place, omega)| std::mem::swap(place, omega));
         }
-        pieces
+        PanelCurve { pieces, stroke }
     };
-    let value = |key: &str, place: f64| match other {
-        Some(axis) if axis.key == key => Some(axis.value(place)),
-        _ => fixed(key, grid, panel),
-    };
-    let without = |place: f64| {
-        let value = |key: &str| value(key, place).or_else(|| of_scene(key, scene));
+    vec![
+        curve(|scene, place| scene.with_friction(place), Stroke::Dashed),
+        curve(|scene, place| scene.without_friction(place), Stroke::Full),
+    ]
+}
+
+/// The scene of a panel, in which keys change along one of its axes.
+struct PanelScene<'a, P> {
+    scene: &'a Scene,
+    variant: Option<&'a Variant>,
+    grid: &'a PanelGrid<P>,
+    panel: &'a GridPanel<P>,
+    other: Option<&'a GridAxis>,
+}
+
+impl<P> PanelScene<'_, P> {
+    /// The factor of the variant on values of an axis.
+    fn factor(&self, axis: &GridAxis) -> f64 {
+        self.variant.map_or(1.0, |it| it.factor(&axis.name))
+    }
+
+    /// The axes that keys have values of.
+    fn axes(&self) -> impl Iterator<Item = &GridAxis> {
+        let (x, y) = self.grid.axes(self.panel);
+        let panels = [self.grid.columns.as_ref(), self.grid.rows.as_ref()];
+        let all = [Some(x), y].into_iter().chain(panels).flatten();
+        all.filter(|axis| axis.words.is_empty())
+    }
+
+    /// The value of a key at a place of the other axis, if an axis gives it one.
+    fn value(&self, key: &str, place: f64) -> Option<f64> {
+        let axis = self.axes().find(|axis| axis.key == key)?;
+        let value = match self.other {
+            Some(other) if other.key == key => other.value(place),
+            _ => fixed(key, self.grid, self.panel)?,
+        };
+        Some(value * self.factor(axis))
+    }
+
+    fn without_friction(&self, place: f64) -> Option<f64> {
+        let value = |key: &str| self.value(key, place).or_else(|| of_scene(key, self.scene));
         Some(critical_rotation(
             value("spheres.count")?,
             value("spheres.radius")?,
             value("tank.radius")?,
             value("gravity.acceleration")?,
         ))
-    };
-    let with = |place: f64| {
-        let axes = [
-            Some(&grid.x),
-            grid.y.as_ref(),
-            grid.columns.as_ref(),
-            grid.rows.as_ref(),
-        ];
-        let numbers = axes
-            .into_iter()
-            .flatten()
-            .filter(|axis| axis.words.is_empty());
-        let keys = numbers.map(|axis| axis.key.as_str());
+    }
+
+    fn with_friction(&self, place: f64) -> Option<f64> {
+        let keys = self.axes().map(|axis| axis.key.as_str());
         let values = keys.filter(|key| *key != OMEGA).filter_map(|key| {
-            let value = value(key, place)?;
+            let value = self.value(key, place)?;
             // Between whole numbers of spheres there is no scene.
             let is_number = key == "spheres.count";
             Some((key, if is_number { value.round() } else { value }))
         });
-        critical_rotation_with_friction(&scene.with_values(values).ok()?)
-    };
-    vec![
-        PanelCurve {
-            pieces: along(&with),
-            stroke: Stroke::Dashed,
-        },
-        PanelCurve {
-            pieces: along(&without),
-            stroke: Stroke::Full,
-        },
-    ]
+        critical_rotation_with_friction(&self.scene.with_values(values).ok()?)
+    }
 }
 
-/// The pieces of a curve of critical rotations over the places of the other axis.
-fn pieces(
-    omega: &GridAxis,
-    other: Option<&GridAxis>,
-    critical: &dyn Fn(f64) -> Option<f64>,
-) -> Vec<Piece> {
-    let places = samples(0.0, 1.0);
-    let places: Vec<f64> = places
-        .map(|fraction| other.map_or(fraction, |axis| axis.along(fraction)))
-        .collect();
+/// The pieces of a curve of critical rotations over places of the other axis.
+fn pieces(omega: &GridAxis, places: &[f64], critical: &dyn Fn(f64) -> Option<f64>) -> Vec<Piece> {
     let shown = |place: &f64| {
         let critical = omega.show(critical(*place)?);
         Some(critical).filter(|critical| critical.is_finite())
@@ -98,7 +131,7 @@ fn pieces(
     let AxisSpan { low, high, .. } = omega.span();
     let ends = [low, high];
     Nodes {
-        x: &places,
+        x: places,
         y: &ends,
         value: &|i, j| Some(ends[j] - curve[i]?),
         logarithmic: [false, false],
@@ -134,7 +167,7 @@ mod tests {
     use crate::classify::{LabelRow, LabelTable};
     use crate::grid::Axis;
     use crate::record::Program;
-    use crate::sweep::{PlotSettings, Sweep};
+    use crate::sweep::PlotSettings;
     use serde_json::json;
 
     const RADIUS: &str = "spheres.radius";
@@ -155,10 +188,18 @@ mod tests {
     /// the horizontal axis.
     fn curves(axes: &[(&str, &[f64])]) -> (Vec<Vec<Piece>>, f64) {
         let axis = |&(key, values): &(&str, &[f64])| Axis::of_numbers(key, key, values.to_vec());
+        let (curves, factors) = curves_over(axes.iter().map(axis).collect());
+        (curves, factors[0])
+    }
+
+    /// The curves of all panels of a sweep over axes, and the factors of their horizontal axes.
+    fn curves_over(axes: Vec<Axis>) -> (Vec<Vec<Piece>>, Vec<f64>) {
+        let names: Vec<String> = axes.iter().map(|axis| axis.name.clone()).collect();
+        let first = axes.iter().map(|axis| axis.values[0]).collect();
         let sweep = Sweep {
             title: None,
             scene: scene(),
-            axes: axes.iter().map(axis).collect(),
+            axes,
             seeds: vec![1],
             refine: None,
             sieves: Sieves::default(),
@@ -166,14 +207,14 @@ mod tests {
         };
         let row = LabelRow {
             id: String::new(),
-            values: axes.iter().map(|(_, values)| values[0]).collect(),
+            values: first,
             seed: 1,
             verdict: Verdict::unmeasured(&TANK, Label::SETTLED),
         };
         let table = LabelTable {
             family: &TANK,
-            axes: axes.iter().map(|(key, _)| (*key).to_owned()).collect(),
-            variants: Vec::new(),
+            axes: names,
+            variants: sweep.variants(),
             rows: vec![row],
         };
         let grid = PanelGrid::new(&Source {
@@ -187,10 +228,11 @@ mod tests {
         })
         .unwrap();
         let of = |panel| {
-            let mut curves = super::curves(&sweep.scene, &grid, panel);
+            let mut curves = super::curves(&sweep, &grid, panel);
             curves.pop().map(|curve| curve.pieces).unwrap_or_default()
         };
-        (grid.panels.iter().map(of).collect(), grid.x.factor)
+        let factors = grid.panels.iter().map(|panel| grid.axes(panel).0.factor);
+        (grid.panels.iter().map(of).collect(), factors.collect())
     }
 
     /// Whether a point lies on one of the pieces.
@@ -245,6 +287,67 @@ mod tests {
                 "panel {panel}"
             );
         }
+    }
+
+    /// A variant with this tank, this number of spheres, and factors on radius and Omega.
+    fn variant(tank: f64, count: u64, factors: [f64; 2]) -> Variant {
+        let values = [("tank.radius", tank), ("spheres.count", count as f64)];
+        let scale = [RADIUS, OMEGA].map(str::to_owned).into_iter().zip(factors);
+        Variant {
+            name: format!("{tank} {count} {factors:?}"),
+            scale: scale.filter(|(_, factor)| *factor != 1.0).collect(),
+            scene: scene().with_values(values).unwrap(),
+        }
+    }
+
+    /// Symptom: panels of variants had the curve of a scene with other radii, and radii over a tank
+    /// that is not theirs. Cause: only the scene was of the variant, not the factors on its axes,
+    /// and the tank was that of the sweep.
+    #[test]
+    fn panels_of_variants_count_with_their_own_tank_and_factors() {
+        let variants = [
+            (variant(0.06, 256, [1.0, 1.0]), 1.0 / 0.06, 9.44633),
+            (variant(0.12, 256, [1.0, 1.0]), 1.0 / 0.12, 9.44633 / 4.0),
+            (
+                variant(0.12, 256, [2.0, 1.0]),
+                2.0 / 0.12,
+                9.44633 / libm::sqrt(2.0),
+            ),
+            (variant(0.06, 64, [1.0, 1.0]), 1.0 / 0.06, 9.44633 / 2.0),
+            // The axis of this panel has half of the rotations.
+            (variant(0.06, 256, [1.0, 0.5]), 1.0 / 0.06, 9.44633),
+        ];
+        let axes = vec![
+            Axis::of_numbers(RADIUS, RADIUS, vec![0.002, 0.006]),
+            Axis::of_numbers(OMEGA, OMEGA, vec![0.0, 20.0, 40.0]),
+            Axis::of_variants(variants.iter().map(|it| it.0.clone()).collect()),
+        ];
+        let (curves, factors) = curves_over(axes);
+        for (index, (variant, factor, omega)) in variants.iter().enumerate() {
+            let (name, of_panel) = (&variant.name, factors[index]);
+            assert!((of_panel - factor).abs() < 1e-9, "{name}: {of_panel}");
+            assert!(on(&curves[index], (0.004 * factor, *omega)), "{name}");
+        }
+    }
+
+    /// Symptom: with variants as an axis of the figure the curve was that of the scene everywhere.
+    /// Cause: only panels were known to stand for variants.
+    #[test]
+    fn rows_of_variants_have_pieces_of_their_own() {
+        let axes = vec![
+            Axis::of_numbers(OMEGA, OMEGA, vec![0.0, 20.0, 40.0]),
+            Axis::of_variants(vec![
+                variant(0.06, 256, [1.0, 1.0]),
+                variant(0.12, 256, [1.0, 1.0]),
+            ]),
+        ];
+        let pieces = curves_over(axes).0.remove(0);
+        let expected = [9.44633, 9.44633 / 4.0];
+        let upright = |(piece, omega): (&Piece, f64)| {
+            piece.iter().all(|(shown, _)| (shown - omega).abs() < 1e-3)
+        };
+        assert_eq!(pieces.len(), 2, "{pieces:?}");
+        assert!(pieces.iter().zip(expected).all(upright), "{pieces:?}");
     }
 
     #[test]

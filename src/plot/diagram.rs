@@ -1,15 +1,15 @@
 //! A diagram over the axes of a sweep: coloured cells, small multiples, axes, title, legend.
 
 use super::axes::Plot;
-use super::canvas::Body;
+use super::canvas::{Body, Drawn, FigureSheet};
 use super::color_bar::ColorBar;
-use super::contour::Piece;
 use super::critical;
 use super::grid::{self, GridAxis, GridPanel, PanelGrid};
 use super::legend::{LegendEntry, LegendKey};
 use super::page::{FigurePage, PagePlan, PanelFrame};
+use super::panel_curve::{PanelCurve, Stroke};
 use super::scale::AxisScale;
-use super::style::{self, Corners, Drawn, FigureSheet, Fill, px};
+use super::style::{self, Corners, Fill, px};
 use super::svg::Svg;
 use super::{PlotError, Source};
 use crate::classify::Point;
@@ -46,44 +46,6 @@ impl Look {
             group,
             mark: None,
         }
-    }
-}
-
-/// A curve over a panel: pieces in shown values.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct PanelCurve {
-    pub(super) pieces: Vec<Piece>,
-    pub(super) stroke: Stroke,
-}
-
-/// How a curve is drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Stroke {
-    /// A theory.
-    Full,
-    /// An advice: thin and dashed.
-    Dashed,
-    /// A border between labels: thin.
-    Border,
-}
-
-impl PanelCurve {
-    /// Entries of the legend for the curves that there are, with words for full and dashed ones.
-    pub(super) fn entries(curves: &[Vec<Self>], words: [&str; 2]) -> Vec<LegendEntry> {
-        let is_there = |stroke: Stroke| {
-            let mut curves = curves.iter().flatten();
-            curves.any(|curve| curve.stroke == stroke && !curve.pieces.is_empty())
-        };
-        let [full, dashed] = words;
-        let entries = [
-            (Stroke::Full, LegendKey::Curve, full),
-            (Stroke::Dashed, LegendKey::Dashes, dashed),
-        ];
-        let entries = entries.into_iter();
-        entries
-            .filter(|(stroke, ..)| is_there(*stroke))
-            .map(|(_, key, words)| LegendEntry::new(key, words))
-            .collect()
     }
 }
 
@@ -129,10 +91,7 @@ pub(super) struct Diagram<'a, P = Point> {
 impl Diagram<'_> {
     /// Draws it with the curves of the critical rotation.
     pub(super) fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
-        let curves = |panel: &GridPanel| {
-            let scene = source.sweep.scene_of_variant(self.grid.variant(panel));
-            critical::curves(scene, self.grid, panel)
-        };
+        let curves = |panel: &GridPanel| critical::curves(source.sweep, self.grid, panel);
         self.draw_with(source, &curves, critical::WORDS)
     }
 
@@ -197,18 +156,17 @@ impl<P> Diagram<'_, P> {
 
     fn frames(&self, columns: usize) -> Vec<PanelFrame> {
         let panels = self.grid.panels.iter().enumerate();
-        let frame = |(index, panel): (usize, &GridPanel<P>)| PanelFrame {
-            // If rows have heads too, columns have theirs above the first row only.
-            head: match &panel.head {
-                Some(head) if index < columns || self.grid.rows.is_none() => vec![head.clone()],
-                _ => Vec::new(),
-            },
-            x: self.grid.x.span(),
-            y: self
-                .grid
-                .y
-                .as_ref()
-                .map_or_else(grid::strip, |axis| axis.span()),
+        let frame = |(index, panel): (usize, &GridPanel<P>)| {
+            let (x, y) = self.grid.axes(panel);
+            PanelFrame {
+                // If rows have heads too, columns have theirs above the first row only.
+                head: match &panel.head {
+                    Some(head) if index < columns || self.grid.rows.is_none() => vec![head.clone()],
+                    _ => Vec::new(),
+                },
+                x: x.span(),
+                y: y.map_or_else(grid::strip, GridAxis::span),
+            }
         };
         panels.map(frame).collect()
     }
@@ -237,18 +195,19 @@ impl<P> Diagram<'_, P> {
     ) -> Drawn {
         let axes = page.axes(sheet, index)?;
         let plot = axes.plot();
-        let looks = self.looks(&self.grid.panels[index]);
-        let cells = || self.cells(plot).into_iter().zip(&looks);
+        let panel = &self.grid.panels[index];
+        let looks = self.looks(panel);
+        let cells = || self.cells(panel, plot).into_iter().zip(&looks);
         if looks.contains(&None) {
             // One pattern under all cells: most of a refined sweep's are empty.
-            style::paint(sheet, self.ground(plot), Fill::Hatch)?;
+            style::paint(sheet, self.ground(panel, plot), Fill::Hatch)?;
         }
         for (corners, look) in cells() {
             if let Some(look) = look {
                 style::paint(sheet, corners, look.fill)?;
             }
         }
-        self.draw_borders(sheet, plot, &looks)?;
+        self.draw_borders(sheet, (panel, plot), &looks)?;
         for PanelCurve { pieces, stroke } in curves {
             let draw = match stroke {
                 Stroke::Full => style::curve,
@@ -260,7 +219,7 @@ impl<P> Diagram<'_, P> {
                 draw(sheet, &pixels.collect::<Vec<_>>())?;
             }
         }
-        for (point, look) in self.points(plot).into_iter().zip(&looks) {
+        for (point, look) in self.points(panel, plot).into_iter().zip(&looks) {
             // A mark where seeds disagree.
             if let Some(look) = look
                 && look.agreement < 1.0
@@ -276,10 +235,11 @@ impl<P> Diagram<'_, P> {
 
     /// The points of all cells on the canvas: at their values, which are not in the middle of
     /// uneven cells.
-    fn points(&self, plot: &Plot<'_>) -> Vec<(i32, i32)> {
-        let y = self.grid.y.as_ref().map_or(vec![0.5], GridAxis::shown);
+    fn points(&self, panel: &GridPanel<P>, plot: &Plot<'_>) -> Vec<(i32, i32)> {
+        let (x, y) = self.grid.axes(panel);
+        let y = y.map_or(vec![0.5], GridAxis::shown);
         let row = |y: &f64| {
-            let across = self.grid.x.shown().into_iter();
+            let across = x.shown().into_iter();
             let points = across.map(|x| plot.map_coordinate(&(x, *y)));
             points.collect::<Vec<_>>()
         };
@@ -287,11 +247,9 @@ impl<P> Diagram<'_, P> {
     }
 
     /// Edges of the cells on the canvas, horizontally and vertically.
-    fn edges(&self, plot: &Plot<'_>) -> (Vec<i32>, Vec<i32>) {
-        let (x_edges, y_edges) = (
-            self.grid.x.edges(),
-            self.grid.y.as_ref().map_or(vec![0.0, 1.0], |y| y.edges()),
-        );
+    fn edges(&self, panel: &GridPanel<P>, plot: &Plot<'_>) -> (Vec<i32>, Vec<i32>) {
+        let (x, y) = self.grid.axes(panel);
+        let (x_edges, y_edges) = (x.edges(), y.map_or(vec![0.0, 1.0], GridAxis::edges));
         let corner = (x_edges[0], y_edges[0]);
         let x = |edge: &f64| plot.map_coordinate(&(*edge, corner.1)).0;
         let y = |edge: &f64| plot.map_coordinate(&(corner.0, *edge)).1;
@@ -302,8 +260,8 @@ impl<P> Diagram<'_, P> {
     }
 
     /// Corners of all cells on the canvas.
-    fn cells(&self, plot: &Plot<'_>) -> Vec<Corners> {
-        let (x, y) = self.edges(plot);
+    fn cells(&self, panel: &GridPanel<P>, plot: &Plot<'_>) -> Vec<Corners> {
+        let (x, y) = self.edges(panel, plot);
         let row = |y: &[i32]| {
             let (bottom, top) = (y[0], y[1]);
             let cells = x.windows(2);
@@ -315,18 +273,25 @@ impl<P> Diagram<'_, P> {
     }
 
     /// Corners of what all cells cover on the canvas.
-    fn ground(&self, plot: &Plot<'_>) -> Corners {
-        let (x, y) = self.edges(plot);
+    fn ground(&self, panel: &GridPanel<P>, plot: &Plot<'_>) -> Corners {
+        let (x, y) = self.edges(panel, plot);
         let (last_x, last_y) = (x.len() - 1, y.len() - 1);
         [(x[0], y[last_y]), (x[last_x], y[0])]
     }
 
-    /// The cells of both axes on the canvas.
+    /// The cells of both axes on the canvas, in all panels.
     fn sides(&self, page: &FigurePage) -> [Vec<Side>; 2] {
-        let ((x, y), (width, height)) = (page.scales(0), page.panel);
-        let up = self.grid.y.as_ref();
-        let up = up.map(|axis| sides(axis, y, height)).unwrap_or_default();
-        [sides(&self.grid.x, x, width), up]
+        let (width, height) = page.panel;
+        let mut all = [Vec::new(), Vec::new()];
+        for (index, panel) in self.grid.panels.iter().enumerate() {
+            if index > 0 && panel.own.iter().all(Option::is_none) {
+                break;
+            }
+            let ((x, y), (across, up)) = (page.scales(index), self.grid.axes(panel));
+            all[0].extend(sides(across, x, width));
+            all[1].extend(up.into_iter().flat_map(|axis| sides(axis, y, height)));
+        }
+        all
     }
 
     /// Shortest side of a cell around its point, as far as marks grow with it.
@@ -357,10 +322,10 @@ impl<P> Diagram<'_, P> {
     fn draw_borders(
         &self,
         sheet: &FigureSheet<'_>,
-        plot: &Plot<'_>,
+        (panel, plot): (&GridPanel<P>, &Plot<'_>),
         looks: &[Option<Look>],
     ) -> Drawn {
-        let (x, y) = self.edges(plot);
+        let (x, y) = self.edges(panel, plot);
         let (columns, rows) = self.grid.cells();
         let group = |column: usize, row: usize| looks[column + row * columns].map(|at| at.group);
         let line = |here: Option<Option<i8>>, there, ends: [(i32, i32); 2]| match here.zip(there) {

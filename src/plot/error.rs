@@ -1,6 +1,6 @@
 //! Why a figure cannot be drawn.
 
-use super::style;
+use super::canvas;
 use crate::refine::RefineError;
 use crate::refusal::Refusal;
 use crate::sweep::SelectError;
@@ -110,8 +110,8 @@ impl Display for PlotError {
 
 impl std::error::Error for PlotError {}
 
-impl From<style::Failed> for PlotError {
-    fn from(error: style::Failed) -> Self {
+impl From<canvas::Failed> for PlotError {
+    fn from(error: canvas::Failed) -> Self {
         Self::drawing(format_args!("cannot draw the figure: {error}"))
     }
 }

@@ -1,6 +1,7 @@
 //! The legend: entries in lines that break where the room ends.
 
-use super::style::{self, Drawn, FigureSheet, Fill, SMALL, letters, px};
+use super::canvas::{Drawn, FigureSheet};
+use super::style::{self, Fill, SMALL, letters, px};
 use super::text;
 use plotters::element::{Circle, PathElement};
 use plotters::style::text_anchor::{HPos, VPos};

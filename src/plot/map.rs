@@ -91,7 +91,7 @@ impl MeasureMap {
             .iter()
             .flat_map(|panel| panel.cells.iter().flatten());
         let values = points.filter_map(|point| self.mean(source, point));
-        let label = self.label(source.sweep.scene.units());
+        let label = self.label(source.sweep.units());
         let bar = ColorBar::new(
             values,
             self.measure.range == MeasureRange::Signed,

@@ -1,7 +1,7 @@
 //! Every measure of a sweep over its horizontal axis: means over the seeds, with their intervals.
 
 use super::chart::{self, Bar, Chart, ChartLine, ChartPanel};
-use super::grid::{GridAxis, PanelGrid};
+use super::grid::{self, GridAxis};
 use super::map::{self, MeasureMap};
 use super::scale::AxisSpan;
 use super::series::{self, PointSeries};
@@ -27,7 +27,7 @@ pub(super) fn figure() -> Figure {
 }
 
 fn draw(source: &Source<'_>) -> Result<Svg, PlotError> {
-    let axis = PanelGrid::new(source)?.x;
+    let axis = grid::horizontal(source)?;
     let (lines, left_out) = series::lines(source, &axis)?;
     let panels: Vec<ChartPanel> = map::of_measures(source.table.family)
         .filter_map(|map| panel(source, map, &lines, &axis))
@@ -86,7 +86,7 @@ fn panel(
         spacing.along(place, low, high)
     };
     let mut panel = ChartPanel {
-        head: vec![map.label(source.sweep.scene.units())],
+        head: vec![map.label(source.sweep.units())],
         x: (low, high),
         spacing: [spacing.clone(), AxisSpacing::Linear],
         ticks,

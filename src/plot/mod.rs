@@ -33,6 +33,7 @@ mod net_force;
 mod numbers;
 mod page;
 mod palette;
+mod panel_curve;
 mod phase;
 mod png;
 mod records;

@@ -7,18 +7,23 @@
 
 use super::chart::{self, Chart, ChartLine, ChartPanel, samples};
 use super::critical_rotation::{radii, volume};
+use super::page::columns;
 use super::style::px;
 use super::svg::Svg;
-use super::{Figure, PlotError, Source, numbers, palette};
+use super::{Figure, PlotError, Source, choice, numbers, palette};
 use crate::classify::TANK;
 use crate::scene::Scene;
 use crate::theory::unshielded_lift;
+use plotters::style::RGBColor;
 
 /// Name of the figure.
 const NAME: &str = "net-force";
 
 /// Rotations that are shown, over the rotation of the scene.
 const ROTATIONS: [f64; 3] = [0.5, 0.75, 1.0];
+
+/// Keys that vary in the figure.
+const SHOWN: [&str; 2] = ["spheres.radius", "swirl.omega"];
 
 pub(super) fn figure() -> Figure {
     Figure::of_sweep(
@@ -30,41 +35,88 @@ pub(super) fn figure() -> Figure {
 }
 
 fn draw(source: &Source<'_>) -> Result<Svg, PlotError> {
-    let scene = &source.sweep.scene;
+    let scenes = source.sweep.scenes();
     let largest = radii(source).1;
-    let mut lines = Vec::new();
-    for (share, color) in ROTATIONS.into_iter().zip(palette::LINES) {
+    let mut panels = Vec::new();
+    for (index, &scene) in scenes.iter().enumerate() {
+        let variant = source.sweep.variant(index as f64);
+        let head = variant.map(|variant| variant.name.clone());
+        let lines = lines(scene, largest).ok_or_else(needs)?;
+        let x = (0.0, largest * 1e3);
+        panels.push(ChartPanel::new(Vec::from_iter(head), x, lines));
+    }
+    let unit = chart::scaled("N", &mut panels);
+    Chart {
+        name: NAME,
+        common: common(source),
+        legend: legend(&scenes).ok_or_else(needs)?,
+        columns: columns(panels.len()),
+        height: if panels.len() == 1 { px(400) } else { px(240) },
+        panels,
+        x_label: "radius of the sphere $r$ (mm)".to_owned(),
+        y_label: format!("net vertical force $F_z$ ({unit})"),
+        notes: notes(&scenes),
+    }
+    .draw(&source.origin())
+}
+
+/// The lines of a scene, one for each rotation.
+fn lines(scene: &Scene, largest: f64) -> Option<Vec<ChartLine>> {
+    let line = |(share, color): (f64, RGBColor)| {
         let point = |radius: f64| Some((radius * 1e3, net_force(scene, radius, share)?));
         let points: Option<Vec<_>> = samples(0.0, largest).map(point).collect();
-        let points = points.ok_or_else(needs)?;
-        lines.push(ChartLine { points, color });
-    }
-    let mut panels = vec![ChartPanel::new(Vec::new(), (0.0, largest * 1e3), lines)];
-    let unit = chart::scaled("N", &mut panels);
-    let omega = scene.dem.effects.swirl.as_ref().ok_or_else(needs)?.omega;
+        Some(ChartLine {
+            points: points?,
+            color,
+        })
+    };
+    ROTATIONS
+        .into_iter()
+        .zip(palette::LINES)
+        .map(line)
+        .collect()
+}
+
+/// The rotations of the lines, over those of the scenes if these have several.
+fn legend(scenes: &[&Scene]) -> Option<Vec<(RGBColor, String)>> {
+    let omegas = scenes.iter().map(|scene| {
+        let swirl = scene.dem.effects.swirl.as_ref()?;
+        Some(swirl.omega)
+    });
+    let omegas: Vec<f64> = omegas.collect::<Option<_>>()?;
+    let is_one = omegas.iter().all(|omega| *omega == omegas[0]);
     let name = |share: f64| {
         let own = if share == 1.0 {
             ", as in the scene"
         } else {
             ""
         };
-        format!("$Ω$ = {} rad/s{own}", numbers::number(share * omega))
+        match is_one {
+            true => format!("$Ω$ = {} rad/s{own}", numbers::number(share * omegas[0])),
+            false => format!("{} $Ω$ of the variant", numbers::number(share)),
+        }
     };
-    Chart {
-        name: NAME,
-        legend: palette::LINES
-            .into_iter()
-            .zip(ROTATIONS.map(name))
-            .collect(),
-        panels,
-        columns: 1,
-        height: px(400),
-        x_label: "radius of the sphere $r$ (mm)".to_owned(),
-        y_label: format!("net vertical force $F_z$ ({unit})"),
-        notes: notes(scene),
-        ..Chart::default()
-    }
-    .draw(&source.origin())
+    let lines = palette::LINES.into_iter().zip(ROTATIONS.map(name));
+    Some(lines.collect())
+}
+
+/// The values that axes vary and the figure takes from the scene, where all variants share them.
+fn common(source: &Source<'_>) -> Vec<String> {
+    let scenes = source.sweep.scenes();
+    let axes = source
+        .sweep
+        .axes
+        .iter()
+        .filter(|axis| !axis.is_of_variants());
+    let others = axes.filter(|axis| !SHOWN.contains(&axis.key.as_str()));
+    others
+        .filter_map(|axis| {
+            let mut values = scenes.iter().map(|scene| scene.number(&axis.key));
+            let first = values.next()??;
+            let is_one = values.all(|value| value == Some(first));
+            is_one.then(|| choice::quantity(source, &axis.key, first))
+        })
+        .collect()
 }
 
 fn needs() -> PlotError {
@@ -72,9 +124,11 @@ fn needs() -> PlotError {
 }
 
 /// What the curves assume and the scene does not.
-fn notes(scene: &Scene) -> Vec<String> {
-    let updraught = scene.dem.effects.updraught.as_ref();
-    if updraught.is_none_or(|updraught| updraught.reference_omega.is_some()) {
+fn notes(scenes: &[&Scene]) -> Vec<String> {
+    let mut updraughts = scenes
+        .iter()
+        .filter_map(|it| it.dem.effects.updraught.as_ref());
+    if updraughts.all(|updraught| updraught.reference_omega.is_some()) {
         return Vec::new();
     }
     vec![

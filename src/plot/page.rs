@@ -1,10 +1,10 @@
 //! A page: panels of equal size in rows, with their ticks, and the words around them.
 
 use super::axes::Axes;
-use super::canvas::{self, Body};
+use super::canvas::{self, Body, Drawn, Failed, FigureSheet};
 use super::legend::{Legend, LegendEntry};
 use super::scale::{AxisRoom, AxisScale, AxisSpan};
-use super::style::{Drawn, Failed, FigureSheet, LABEL, MARGIN, SMALL, TICK, WIDTH, letters, px};
+use super::style::{LABEL, MARGIN, SMALL, TICK, WIDTH, letters, px};
 use super::words::{FigureWords, LINE};
 use super::{PlotError, text};
 use plotters::style::FontTransform;

@@ -2,9 +2,10 @@
 //! as curves, and the runs.
 
 use super::critical;
-use super::diagram::{Diagram, Look, PanelCurve, Stroke};
+use super::diagram::{Diagram, Look};
 use super::grid::{self, GridAxis, GridPanel, PanelGrid};
 use super::legend::{LegendEntry, LegendKey};
+use super::panel_curve::{PanelCurve, Stroke};
 use super::phase;
 use super::style::Fill;
 use super::svg::Svg;
@@ -111,18 +112,7 @@ fn grid_of(
         let mut known = lattice.axes()[axis.index].values().iter();
         known.position(|other| *other == value).unwrap_or(0)
     };
-    let mut runs: BTreeMap<usize, Vec<Code>> = BTreeMap::new();
-    for (run, code) in learnt.runs.iter() {
-        if let Some(place) = lattice.place_of(&run.values) {
-            runs.entry(place).or_default().push(code);
-        }
-    }
-    let table = source.table;
-    let points = table.points().into_iter();
-    let unsteady: BTreeSet<usize> = points
-        .filter(|point| table.is_unsteady(point))
-        .filter_map(|point| lattice.place_of(&point.values))
-        .collect();
+    let cells = RefinedCells::new(source, learnt);
     let (columns, rows) = (values(&grid.columns), values(&grid.rows));
     let mut of_panels = Vec::new();
     for row in rows {
@@ -134,35 +124,78 @@ fn grid_of(
                 }
             }
             of_panels.push(lattice.place(&indices));
-            let heights = grid.y.as_ref().map_or(1, |axis| axis.values.len());
-            let mut cells = Vec::new();
-            for height in 0..heights {
-                for across in 0..grid.x.values.len() {
-                    indices[grid.x.index] = across;
-                    if let Some(y) = &grid.y {
-                        indices[y.index] = height;
-                    }
-                    let place = lattice.place(&indices);
-                    cells.push(Some(RefinedCell {
-                        code: learnt.map.label(place),
-                        certainty: learnt.map.certainty(place),
-                        of_runs: runs
-                            .get(&place)
-                            .map(|codes| most(codes, learnt.map.label(place))),
-                        is_unsteady: unsteady.contains(&place),
-                    }));
-                }
-            }
             let head = grid.columns.as_ref().zip(column);
             grid.panels.push(GridPanel {
                 head: head.map(|(axis, value)| axis.at(value)),
                 column,
                 row,
-                cells,
+                own: [None, None],
+                cells: cells.of_panel(&grid.x, grid.y.as_ref(), indices),
             });
         }
     }
     Ok((grid, of_panels))
+}
+
+/// What is known of the places of a lattice.
+struct RefinedCells<'a> {
+    learnt: &'a Learnt,
+    /// The labels of the runs at places.
+    runs: BTreeMap<usize, Vec<Code>>,
+    /// Places with runs that were not steady.
+    unsteady: BTreeSet<usize>,
+}
+
+impl<'a> RefinedCells<'a> {
+    fn new(source: &Source<'_>, learnt: &'a Learnt) -> Self {
+        let (lattice, table) = (&learnt.lattice, source.table);
+        let mut runs: BTreeMap<usize, Vec<Code>> = BTreeMap::new();
+        for (run, code) in learnt.runs.iter() {
+            if let Some(place) = lattice.place_of(&run.values) {
+                runs.entry(place).or_default().push(code);
+            }
+        }
+        let points = table.points().into_iter();
+        let unsteady = points
+            .filter(|point| table.is_unsteady(point))
+            .filter_map(|point| lattice.place_of(&point.values));
+        Self {
+            learnt,
+            runs,
+            unsteady: unsteady.collect(),
+        }
+    }
+
+    /// The cells of a panel over two axes, row by row; `indices` are those of the panel on others.
+    fn of_panel(
+        &self,
+        x: &GridAxis,
+        y: Option<&GridAxis>,
+        mut indices: Vec<usize>,
+    ) -> Vec<Option<RefinedCell>> {
+        let mut cells = Vec::new();
+        for height in 0..y.map_or(1, |axis| axis.values.len()) {
+            for across in 0..x.values.len() {
+                indices[x.index] = across;
+                if let Some(y) = y {
+                    indices[y.index] = height;
+                }
+                cells.push(Some(self.at(self.learnt.lattice.place(&indices))));
+            }
+        }
+        cells
+    }
+
+    fn at(&self, place: usize) -> RefinedCell {
+        let map = &self.learnt.map;
+        let codes = self.runs.get(&place);
+        RefinedCell {
+            code: map.label(place),
+            certainty: map.certainty(place),
+            of_runs: codes.map(|codes| most(codes, map.label(place))),
+            is_unsteady: self.unsteady.contains(&place),
+        }
+    }
 }
 
 /// The label that most of some runs have: of several that one, or else the least.
@@ -221,7 +254,7 @@ fn curves(
                 stroke: Stroke::Border,
             });
         }
-        curves.extend(critical::curves(&source.sweep.scene, grid, panel));
+        curves.extend(critical::curves(source.sweep, grid, panel));
         curves
     };
     panels.map(of_panel).collect()

@@ -45,25 +45,20 @@ pub(super) fn lines(
     let left_out = (all > most).then(|| format!("{most} of {all} lines are shown."));
     let groups = groups.into_iter().enumerate();
     let shown = groups.filter(|(index, _)| chosen(*index));
-    let lines = shown
-        .zip(colors)
-        .map(|((_, (values, mut points)), &color)| {
-            points.sort_by(|one, other| one.0.total_cmp(&other.0));
-            PointSeries {
-                name: name(source, axis, &values),
-                color,
-                points,
-            }
-        });
+    let lines = shown.zip(colors).map(|((_, (_, mut points)), &color)| {
+        points.sort_by(|one, other| one.0.total_cmp(&other.0));
+        PointSeries {
+            name: name(source, axis, &points[0].1),
+            color,
+            points,
+        }
+    });
     Ok((lines.collect(), left_out))
 }
 
-fn name(source: &Source<'_>, axis: &GridAxis, values: &[f64]) -> String {
-    let others = source.sweep.axes.iter().enumerate();
-    let others = others.filter(|(index, _)| *index != axis.index);
-    let parts: Vec<String> = others
-        .zip(values)
-        .map(|((_, other), &value)| choice::quantity(source, &other.key, &other.name, value))
-        .collect();
+/// What a point is on all axes but one.
+fn name(source: &Source<'_>, axis: &GridAxis, point: &Point) -> String {
+    let mut parts = choice::quantities(source, &point.values);
+    parts.remove(axis.index);
     parts.join(", ")
 }

@@ -2,8 +2,8 @@
 //! the time step on top.
 
 use super::contour::{Nodes, Piece};
-use super::diagram::{PanelCurve, Stroke};
 use super::grid::{GridAxis, GridPanel};
+use super::panel_curve::{PanelCurve, Stroke};
 use super::svg::Svg;
 use super::{PlotError, Source, phase};
 use crate::dem::timestep::{Limit, limits};
@@ -42,10 +42,10 @@ pub fn draw(
     };
     phase::with_diagram("stability", &source, |diagram| {
         let grid = diagram.grid;
-        let curves = |panel: &GridPanel| match (grid.variant(panel), &grid.y) {
-            (Some(place), Some(y)) => {
+        let curves = |panel: &GridPanel| match (grid.variant(panel), grid.axes(panel)) {
+            (Some(place), (x, Some(y))) => {
                 let setting = &study.comparison.settings[place as usize];
-                curves(study, setting, &grid.x, y)
+                curves(study, setting, x, y)
             }
             _ => Vec::new(),
         };

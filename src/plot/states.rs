@@ -1,10 +1,10 @@
 //! Pictures of the states: spheres in the tank at the end of a run, from the side and from above
 //! (Rice, 2012, figure 11).
 
-use super::canvas::{self, SNAP};
+use super::canvas::{self, Drawn, FigureSheet, SNAP};
 use super::page::whole;
 use super::runs::{Runs, ShownRun};
-use super::style::{Drawn, FigureSheet, LABEL, MARGIN, SMALL, WIDTH, frame, letters, px};
+use super::style::{LABEL, MARGIN, SMALL, WIDTH, frame, letters, px};
 use super::svg::{Placed, Svg};
 use super::words::{FigureWords, LINE};
 use super::{Figure, PlotError, chart, choice, numbers, palette, text};

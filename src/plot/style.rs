@@ -1,25 +1,13 @@
 //! Sizes, strokes and letters that all figures share.
 
-use super::canvas::{Canvas, UNITS};
+use super::canvas::{Drawn, FigureSheet, UNITS};
 use super::palette;
 use crate::fonts;
-use plotters::coord::Shift;
-use plotters::drawing::{DrawingArea, DrawingAreaErrorKind};
 use plotters::element::{Circle, DashedPathElement, PathElement, Rectangle};
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{
     BLACK, Color, FontDesc, FontFamily, FontStyle, RGBColor, ShapeStyle, TextStyle, WHITE,
 };
-use std::convert::Infallible;
-
-/// The sheet a figure is drawn on.
-pub(super) type FigureSheet<'a> = DrawingArea<Canvas<'a>, Shift>;
-
-/// Why drawing failed.
-pub(super) type Failed = DrawingAreaErrorKind<Infallible>;
-
-/// Result of drawing.
-pub(super) type Drawn = Result<(), Failed>;
 
 /// Units of the canvas of a length in CSS pixels.
 pub(super) const fn px(pixels: i32) -> i32 {

@@ -1,10 +1,11 @@
 //! Errors of all verification cases over what they may be.
 
 use super::axes::Plot;
+use super::canvas::{Drawn, FigureSheet};
 use super::legend::{LegendEntry, LegendKey};
 use super::page::{FigurePage, PagePlan, PanelFrame};
 use super::scale::AxisSpan;
-use super::style::{Drawn, FigureSheet, px};
+use super::style::px;
 use super::svg::Svg;
 use super::ticks::Ticks;
 use super::{Figure, PlotError, StudyResult, palette};

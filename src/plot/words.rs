@@ -1,6 +1,7 @@
 //! Words on a figure, placed from above.
 
-use super::style::{Drawn, FigureSheet, MARGIN, SMALL, TITLE, letters, px};
+use super::canvas::{Drawn, FigureSheet};
+use super::style::{MARGIN, SMALL, TITLE, letters, px};
 use super::text;
 use plotters::style::TextStyle;
 use plotters::style::text_anchor::{HPos, VPos};

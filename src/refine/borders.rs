@@ -47,6 +47,19 @@ pub struct Width {
 }
 
 impl Borders {
+    /// The columns of a table of borders, after those of the axes.
+    pub(crate) const COLUMNS: [&str; 9] = [
+        "along",
+        "below",
+        "above",
+        "low_68",
+        "high_68",
+        "low_95",
+        "high_95",
+        "width_95",
+        "critical_rotation",
+    ];
+
     /// The crossings along an axis: for an Ω axis, the table of Ω*.
     ///
     /// Between two neighbouring places, a crossing lies where the probabilities of both labels are

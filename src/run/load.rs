@@ -45,7 +45,7 @@ impl Scene {
             .map(|path| Problem::new("", format!("--without {path}: the scene has no such key")));
         let mut problems: Vec<Problem> = absent.collect();
         let change = Change {
-            set: settings.iter().flat_map(Document::entries).collect(),
+            set: edits.set.iter().zip(&settings).flat_map(entries).collect(),
             remove: edits.remove.to_vec(),
             ..Change::default()
         };
@@ -81,6 +81,23 @@ fn setting(text: &str) -> Result<Document, LoadError> {
             Document::parse(quoted, path).or(parsed)
         }
         _ => parsed,
+    }
+}
+
+/// What a setting sets: the key before its equals sign, or all tables of one with several lines.
+fn entries((text, setting): (&String, &Document)) -> Vec<(String, Value)> {
+    let key = text.split('=').next().unwrap_or_default();
+    let parts = key
+        .split('.')
+        .map(|part| part.trim().trim_matches(['"', '\'']));
+    let parts: Vec<&str> = parts.collect();
+    let value = parts.iter().try_fold(setting.tree(), |tree, part| {
+        let table = tree.as_object().filter(|table| table.len() == 1)?;
+        table.get(*part)
+    });
+    match value {
+        Some(value) => vec![(parts.join("."), value.clone())],
+        None => setting.entries(),
     }
 }
 

@@ -7,17 +7,14 @@ use serde_json::{Map, Value};
 /// A change of a scene: keys with their new values, and tables that are left out.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Change {
-    /// Paths of keys or tables, such as `time.dt`, with their new values, in order.
+    /// Paths of keys or tables, such as `time.dt`, with their new values, in order. A table replaces
+    /// the whole table of the scene.
     pub set: Vec<(String, Value)>,
     /// Paths of tables or keys that are left out, such as `friction`.
     pub remove: Vec<String>,
     /// Factors on the values of axes, by the names of these.
     pub scale: Vec<(String, f64)>,
 }
-
-/// Keys whose value determines the other keys of their table: with a new value, the old keys are
-/// dropped.
-const TAGS: [&str; 3] = ["law", "kind", "search"];
 
 impl Change {
     /// One key with another value.
@@ -111,7 +108,7 @@ impl Change {
         }
         for (path, value) in &self.set {
             let place = place(tree, path).ok_or_else(|| path.clone())?;
-            merge(place, value);
+            *place = value.clone();
         }
         let is_number = |key: &str| self.value(key).is_some_and(Value::is_number);
         if is_number("time.dt") && self.value("time.safety_factor").is_none() {
@@ -160,23 +157,6 @@ fn remove(tree: &mut Value, path: &str) {
     }
 }
 
-/// Puts a value in the place of another. Tables are merged key by key, unless the new one has
-/// another law or kind.
-fn merge(old: &mut Value, new: &Value) {
-    let (Value::Object(table), Value::Object(keys)) = (&mut *old, new) else {
-        *old = new.clone();
-        return;
-    };
-    let is_other = |tag: &&str| keys.get(*tag).is_some_and(|it| table.get(*tag) != Some(it));
-    if TAGS.iter().any(is_other) {
-        *old = new.clone();
-        return;
-    }
-    for (name, value) in keys {
-        merge(table.entry(name.clone()).or_insert(Value::Null), value);
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -210,16 +190,21 @@ mod tests {
         assert_eq!(applied(&change), expected);
     }
 
+    /// Symptom: a table kept keys of the scene that it did not name, unless it named another law.
+    /// Cause: tables were merged, but for those of another `law`, `kind` or `search`.
     #[test]
-    fn a_table_of_another_law_replaces_the_old_one() {
-        let tree = applied(&Change::of_key(
-            "drag",
+    fn a_table_replaces_the_old_one_and_a_key_keeps_the_others() {
+        for table in [
             json!({ "law": "constant", "linear": 3.0 }),
-        ));
-        assert_eq!(tree["drag"], json!({ "law": "constant", "linear": 3.0 }));
-        let tree = applied(&Change::of_key("drag", json!({ "linear": 3.0 })));
-        let joined = json!({ "law": "diameter", "linear": 3.0, "quadratic": 2.0 });
-        assert_eq!(tree["drag"], joined);
+            json!({ "law": "diameter", "linear": 3.0 }),
+            json!({ "linear": 3.0 }),
+        ] {
+            let tree = applied(&Change::of_key("drag", table.clone()));
+            assert_eq!(tree["drag"], table);
+        }
+        let tree = applied(&Change::of_key("drag.law", json!("constant")));
+        let kept = json!({ "law": "constant", "linear": 1.0, "quadratic": 2.0 });
+        assert_eq!(tree["drag"], kept);
     }
 
     #[test]

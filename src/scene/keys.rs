@@ -67,6 +67,13 @@ impl Scene {
         })
     }
 
+    /// The value of a numeric key, if the scene sets it.
+    pub(crate) fn number(&self, key: &str) -> Option<f64> {
+        let place = key.replace(['.', '['], "/").replace(']', "");
+        let tree = self.for_keys(&[key]).tree();
+        tree.pointer(&format!("/{place}"))?.as_f64()
+    }
+
     pub(super) fn all_numeric_keys(&self) -> Vec<NumericKey> {
         let mut keys = Vec::new();
         collect(&SCENE.kind, None, Some(&self.tree()), "", &mut keys);

@@ -4,8 +4,10 @@
 //! The names are as in the thesis's control script (Rice, 2012, section 7.2):
 //! `dump_r00.003_p03750.0_f006.0.npy`. The script pads the radius to six characters, the analysis
 //! of section 7.3 cuts out five; names are read here by their letters, so either will do. For a
-//! seed other than 1, `_s2` and so on follows (the thesis has no seeds). In the dump of an unstable
-//! run all coordinates are 1 from the end of the run on; by this the analysis recognises it.
+//! seed other than 1, `_s2` and so on follows (the thesis has no seeds). Where several runs have the
+//! same numbers, the seed and then the name of each follow, such as `_s1_heavy`. In the dump of an
+//! unstable run all coordinates are 1 from the end of the run on; by this the analysis recognises
+//! it.
 
 use super::StoreError;
 use super::export::write_array;
@@ -18,7 +20,7 @@ use std::fs;
 use std::path::Path;
 
 /// What the name of a dump says.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct DumpName {
     /// Radius of the spheres (m), their mean if they differ.
     pub radius: f64,
@@ -31,6 +33,8 @@ pub struct DumpName {
     pub omega: f64,
     /// Seed of the run.
     pub seed: u64,
+    /// Name of the run, where others have the same numbers.
+    pub run: Option<String>,
 }
 
 impl DumpName {
@@ -54,6 +58,7 @@ impl DumpName {
                 .as_ref()
                 .map_or(0.0, |swirl| swirl.omega),
             seed: scene.seed,
+            run: None,
         }
     }
 
@@ -62,9 +67,12 @@ impl DumpName {
         let rest = file.strip_prefix("dump_r")?.strip_suffix(".npy")?;
         let (radius, rest) = rest.split_once("_p")?;
         let (density, rest) = rest.split_once("_f")?;
-        let (omega, seed) = match rest.split_once("_s") {
-            Some((omega, seed)) => (omega, seed.parse().ok()?),
-            None => (rest, 1),
+        let (omega, seed, run) = match rest.split_once("_s") {
+            Some((omega, rest)) => match rest.split_once('_') {
+                Some((seed, run)) => (omega, seed.parse().ok()?, Some(run.to_owned())),
+                None => (omega, rest.parse().ok()?, None),
+            },
+            None => (rest, 1, None),
         };
         let number = |text: &str| text.parse().ok().filter(|value: &f64| value.is_finite());
         Some(Self {
@@ -72,6 +80,7 @@ impl DumpName {
             density: number(density).filter(|density| *density > 0.0)?,
             omega: number(omega)?,
             seed,
+            run,
         })
     }
 }
@@ -83,11 +92,15 @@ impl fmt::Display for DumpName {
             density,
             omega,
             seed,
+            run,
         } = self;
         // Zeros go between the sign and the digits.
         write!(formatter, "dump_r{radius:06?}_p{density:07?}_f{omega:05?}")?;
-        if *seed != 1 {
+        if *seed != 1 || run.is_some() {
             write!(formatter, "_s{seed}")?;
+        }
+        if let Some(run) = run {
+            write!(formatter, "_{run}")?;
         }
         formatter.write_str(".npy")
     }
@@ -179,14 +192,22 @@ mod tests {
             density: 3750.0,
             omega: 6.0,
             seed: 1,
+            run: None,
         };
         assert_eq!(name.to_string(), "dump_r00.003_p03750.0_f006.0.npy");
         let other = DumpName {
             omega: -6.5,
             seed: 12,
-            ..name
+            ..name.clone()
         };
         assert_eq!(other.to_string(), "dump_r00.003_p03750.0_f-06.5_s12.npy");
+        let named = DumpName {
+            run: Some("as it was_s2".to_owned()),
+            ..name
+        };
+        let text = "dump_r00.003_p03750.0_f006.0_s1_as it was_s2.npy";
+        assert_eq!(named.to_string(), text);
+        assert_eq!(DumpName::parse(text), Some(named));
         for text in [
             "dump_r00.00_p03750.0_f006.0.h5",
             "dump_r0_p03750.0_f006.0.npy",
@@ -206,7 +227,7 @@ mod tests {
             omega in -1e6..1e6,
             seed: u64,
         ) {
-            let name = DumpName { radius, density, omega, seed };
+            let name = DumpName { radius, density, omega, seed, run: None };
             prop_assert_eq!(DumpName::parse(&name.to_string()), Some(name));
         }
     }

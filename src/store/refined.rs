@@ -8,7 +8,7 @@
 //! `critical_rotation` (rad/s; empty without one).
 
 use super::{StoreError, write_atomic};
-use crate::refine::{Code, Lattice, ProbabilityMap};
+use crate::refine::{Borders, Code, Lattice, ProbabilityMap};
 use std::path::Path;
 
 /// A border, as in `borders.csv`.
@@ -66,17 +66,7 @@ pub fn write_probabilities(
 /// # Errors
 /// [`StoreError::DiskFull`] or [`StoreError::Write`].
 pub fn write_borders(axes: &[&str], rows: &[BorderRow], path: &Path) -> Result<(), StoreError> {
-    let header = axes.iter().copied().chain([
-        "along",
-        "below",
-        "above",
-        "low_68",
-        "high_68",
-        "low_95",
-        "high_95",
-        "width_95",
-        "critical_rotation",
-    ]);
+    let header = axes.iter().copied().chain(Borders::COLUMNS);
     let rows = rows.iter().map(|row| {
         let bands = (row.band68, row.band95, row.width, row.critical_rotation);
         (&row.values, &row.along, row.labels, bands)

@@ -3,7 +3,7 @@
 use super::refining::RefineEntry;
 use super::{PlotSettings, Sweep};
 use crate::classify::{ClassifyError, Family, Sieves};
-use crate::document::{Document, LoadError, Problem, Schema, one_of, suggest};
+use crate::document::{Document, LoadError, Problem, Schema, differing_keys, one_of, suggest};
 use crate::grid::{
     AxisEntry, PointScenes, SceneTree, SeedsEntry, VariantEntry, base_scene, check_axes,
     check_jobs, check_number_of_axes, check_points, check_steps, describe_point, expand_axes,
@@ -33,11 +33,12 @@ pub(crate) struct SweepFile {
     /// scene itself in the tables `[scene.spheres]` and so on.
     #[schemars(with = "Scene", transform = or_path)]
     scene: Value,
-    /// The axes, four at most. The first varies slowest. None: only the seeds vary.
+    /// The axes, four at most, or three beside variants. The first varies slowest. None: only
+    /// variants and seeds vary.
     #[serde(default)]
     axis: Vec<AxisEntry>,
-    /// Named changes of the scene, which make one more axis: each point runs with each of them.
-    /// The axis varies fastest, and its name is `variant`.
+    /// Named changes of the scene. All together are one more axis, which varies fastest and whose
+    /// name is `variant`: each point runs with each of them.
     #[serde(default)]
     variant: Vec<VariantEntry>,
     /// Seeds; each point of the grid runs once per seed. Absent: seed 1 alone.
@@ -263,11 +264,30 @@ fn check_grid(sweep: &Sweep, document: &Document, problems: &mut Vec<Problem>) {
     }
 }
 
-/// The problem of two points with one scene: their runs have one identity, and one row in tables.
+/// The problem of two points with one scene: their runs have one identity, one record and one row
+/// in tables, so that only one of them could be kept as its variant says.
 fn same_scene(sweep: &Sweep, earlier: &[f64], values: &[f64]) -> Problem {
+    let scenes = [earlier, values].map(|it| sweep.scene_at(it));
+    let kept = match &scenes {
+        [Ok(earlier), Ok(later)] => differing_keys(&earlier.output, &later.output),
+        _ => Vec::new(),
+    };
     let [earlier, later] = [earlier, values].map(|it| describe_point(&sweep.axes, it));
-    let message = format!("two points are the same scene: {earlier}; and {later}");
     let variant = values.last().map_or(0, |place| *place as usize);
-    Problem::new(format!("variant[{variant}]"), message)
-        .help("change or remove one of the variants, or a value of an axis")
+    let path = format!("variant[{variant}]");
+    let message = format!("two points are the same scene: {earlier}; and {later}");
+    if kept.is_empty() {
+        let help = "change or remove one of the variants, or a value of an axis";
+        return Problem::new(path, message).help(help);
+    }
+    let keys = kept.iter().map(|key| format!("`output.{key}`"));
+    let keys: Vec<String> = keys.collect();
+    Problem::new(
+        path,
+        format!("{message}; they differ only in {}", keys.join(", ")),
+    )
+    .help(
+        "what a run keeps changes no motion, so that this is one run: set it in [output] of the \
+         scene, and leave out one of the variants",
+    )
 }

@@ -49,9 +49,9 @@ pub use shard::{ForeignShard, Shard};
 pub use status::{Claimed, Status, UnderWay};
 
 use crate::classify::Sieves;
-use crate::grid::Axis;
+use crate::grid::{Axis, Variant, variant_at};
 use crate::refine::Settings;
-use crate::scene::Scene;
+use crate::scene::{Scene, Units};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -63,7 +63,7 @@ pub struct Sweep {
     /// The scene that every job starts from, before its axes' values are put in.
     #[serde(deserialize_with = "Scene::by_tree")]
     pub scene: Scene,
-    /// Up to four axes. The first varies slowest.
+    /// Up to four axes, that of variants among them. The first varies slowest.
     pub axes: Vec<Axis>,
     /// Seeds; each point of the grid runs once per seed.
     pub seeds: Vec<u64>,
@@ -97,11 +97,48 @@ impl Sweep {
         variants.map(|variant| variant.name.clone()).collect()
     }
 
+    /// A variant, by its place.
+    pub fn variant(&self, place: f64) -> Option<&Variant> {
+        self.axes.iter().find_map(|axis| axis.variant(place))
+    }
+
     /// The scene of a variant, by its place; without one that from which all points start.
     pub fn scene_of_variant(&self, place: Option<f64>) -> &Scene {
-        let mut variants = self.axes.iter().filter(|axis| axis.is_of_variants());
-        let variant = place.and_then(|place| variants.next()?.variant(place));
+        let variant = place.and_then(|place| self.variant(place));
         variant.map_or(&self.scene, |variant| &variant.scene)
+    }
+
+    /// The scene from which a point starts, before its values are put in.
+    pub fn start_of(&self, values: &[f64]) -> &Scene {
+        variant_at(&self.axes, values).map_or(&self.scene, |variant| &variant.scene)
+    }
+
+    /// The scenes from which points start: those of the variants, or the one that all have.
+    pub fn scenes(&self) -> Vec<&Scene> {
+        let variants = self.axes.iter().flat_map(|axis| &axis.variants);
+        match variants.map(|variant| &variant.scene).collect::<Vec<_>>() {
+            scenes if scenes.is_empty() => vec![&self.scene],
+            scenes => scenes,
+        }
+    }
+
+    /// The factors on the values of an axis, by its name: of each variant, or 1 alone.
+    pub fn factors(&self, axis: &str) -> Vec<f64> {
+        let variants = self.axes.iter().flat_map(|axis| &axis.variants);
+        match variants.map(|it| it.factor(axis)).collect::<Vec<_>>() {
+            factors if factors.is_empty() => vec![1.0],
+            factors => factors,
+        }
+    }
+
+    /// The units in which all its scenes are best read.
+    pub fn units(&self) -> Units {
+        let mut units = self.scenes().into_iter().map(Scene::units);
+        let first = units.next().unwrap_or(Units::Si);
+        match units.all(|other| other == first) {
+            true => first,
+            false => Units::Si,
+        }
     }
 
     /// The sweep of a scene that takes no time, to test with.

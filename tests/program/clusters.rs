@@ -260,6 +260,7 @@ fn folders_of_other_sweeps_are_not_joined() {
     let records = place.records("one");
     fs::remove_dir_all(place.path("one/records")).unwrap();
     fs::create_dir(place.path("one/records")).unwrap();
+    fs::remove_file(place.path("one/labels.csv")).unwrap();
     damage(&place.path("two/records").join(&records[0]));
     let name = records[0].clone();
     place

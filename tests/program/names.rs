@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// How many names may be used more than once. Lower it when fewer are.
-const MOST: usize = 30;
+const MOST: usize = 27;
 
 /// Types of which each command has its own.
 const OF_COMMANDS: [&str; 2] = ["Answer", "Arguments"];

@@ -1,6 +1,6 @@
 //! Variants of a scene as an axis of a sweep: jobs, tables, figures, points.
 
-use crate::support::{TinySweep, Workplace, texts};
+use crate::support::{TinySweep, Workplace, scene_file, texts};
 use phase::store::read_labels;
 use phase::sweep::{self, parse_point};
 use serde_json::Value;
@@ -117,4 +117,184 @@ fn variants_are_not_refined() {
         .phase(&["sweep", "tiny.toml", "--refine"])
         .code(2)
         .complains("a sweep with variants is not refined");
+}
+
+/// A sweep of variants with other tanks, radii and rotations, with its results.
+fn swept_in_three_tanks() -> Workplace {
+    let place = Workplace::new();
+    let sweep = TinySweep {
+        omegas: vec![4.0, 8.0],
+        seeds: vec![1],
+        duration: 0.2,
+        more: "[[axis]]\nkey = \"spheres.radius\"\nvalues = [0.003, 0.004]\n\
+               [[variant]]\nname = \"as it is\"\nset = { title = \"the same\" }\n\
+               [[variant]]\nname = \"large\"\nset = { \"tank.radius\" = 0.06 }\n\
+               scale = { radius = 2.0 }\n\
+               [[variant]]\nname = \"wide\"\nset = { \"tank.radius\" = 0.06 }\n\
+               [plot]\nx = \"radius\"\ny = \"omega\"\n"
+            .to_owned(),
+        ..TinySweep::default()
+    };
+    let sieves = "[sieves]\nsettle = { window = 0.05 }\nfluid = { window = 0.05 }\n\
+                  pinned = { window = 0.05 }\nspout = { window = 0.05 }\n";
+    place.write("tiny.toml", &(sweep.text() + sieves));
+    place.phase(&["sweep", "tiny.toml", "--no-plot"]).code(0);
+    place
+}
+
+/// Symptom: radii stood over the tank of the scene, runs were named by radii that they did not
+/// have, and the critical rotation was that of the scene. Cause: figures read tank and radius in
+/// the scene from which variants start, without what these set and scale.
+#[test]
+fn figures_have_the_tank_and_the_radii_of_each_variant() {
+    let place = swept_in_three_tanks();
+    let large = "radius=0.004,omega=8,variant=large";
+    // For each figure: options, texts that it has, and texts that it has not.
+    let cases: [(&str, [&[&str]; 3]); 4] = [
+        // Of "as it is" 0.1 and 0.13, of "large" the same, of "wide" half of it.
+        ("phase", [&[], &["r / R", "0.05", "0.1"], &["r (m)"]]),
+        (
+            "critical-rotation",
+            [
+                &[],
+                &["as it is", "large or wide", "n = 8, g = 9.8 m/s²"],
+                &["R = 0.03 m", "R = 30 mm"],
+            ],
+        ),
+        (
+            "energies",
+            [&["--point", large], &["r = 8 mm"], &["r = 4 mm"]],
+        ),
+        (
+            "measures",
+            [
+                &[],
+                &["r (m), before the factor of each variant"],
+                &["r / R"],
+            ],
+        ),
+    ];
+    for (figure, [more, present, absent]) in cases {
+        let arguments = [&["plot", "results/tiny", "--figure", figure], more].concat();
+        place.phase(&arguments).code(0);
+        let found = texts(&place.read(&format!("results/tiny/{figure}.svg")));
+        let has = |part: &&&str| found.iter().any(|text| text.contains(**part));
+        let missing: Vec<_> = present.iter().filter(|part| !has(part)).collect();
+        let wrong: Vec<_> = absent.iter().filter(has).collect();
+        assert!(
+            missing.is_empty() && wrong.is_empty(),
+            "{figure}: no {missing:?}, but {wrong:?} in {found:?}"
+        );
+    }
+}
+
+/// Symptom: `phase check` named variants, but not what they change, and described the scene from
+/// which they start as if it was run.
+#[test]
+fn check_says_what_each_variant_changes() {
+    let place = Workplace::new();
+    let more = "\n[[variant]]\nname = \"still\"\nwithout = [\"swirl\", \"drag\"]\n";
+    let text = text() + more;
+    place.write(
+        "tiny.toml",
+        &text.replace("key = \"swirl.omega\"", "key = \"spheres.radius\""),
+    );
+    let text = place
+        .read("tiny.toml")
+        .replace("[0.0, 4.0, 8.0]", "[0.003, 0.004]");
+    place.write("tiny.toml", &text);
+    place
+        .phase(&["check", "tiny.toml", "--no-trial"])
+        .code(0)
+        .says("variant     3, no two of which share a run: heavy, as it was, still")
+        .says("heavy: spheres.density = 4000.0")
+        .says("as it was: the scene as it is")
+        .says("still: without drag, without swirl")
+        .says("gravity, swirl, contact (hertz), cylinder, floor (heavy, as it was)")
+        .says("gravity, contact (hertz), cylinder, floor (still)");
+    let check = place.phase(&["check", "tiny.toml", "--no-trial", "--json"]);
+    let check: Value = serde_json::from_str(&check.code(0).stdout).unwrap();
+    assert_eq!(
+        check["variants"][0]["keys"],
+        serde_json::json!(["spheres.density"])
+    );
+    assert_eq!(check["variants"][2]["name"], "still");
+}
+
+/// Symptom: dumps of variants were refused, because all had one name. Cause: the name of a dump
+/// says radius, density, rotation and seed alone.
+#[test]
+fn dumps_of_variants_have_names_of_their_own() {
+    let place = swept_in_three_tanks();
+    let records = place.records("results/tiny");
+    let paths = records
+        .iter()
+        .map(|name| format!("results/tiny/records/{name}"));
+    let paths: Vec<String> = paths.collect();
+    for (format, names) in [
+        ("dump", 12),
+        ("xyz", 12),
+        ("csv", 24),
+        ("npy", 12),
+        ("vtk", 24),
+    ] {
+        let mut arguments = vec!["export", "--to", format, "--out", format];
+        arguments.extend(paths.iter().map(String::as_str));
+        place.phase(&arguments).code(0);
+        let files = std::fs::read_dir(place.path(format)).unwrap().count();
+        assert_eq!(files, names, "{format}");
+    }
+    // Two variants have radii of 3 and 4 mm, one of 6 and 8 mm, whose names need no more.
+    let dumps = std::fs::read_dir(place.path("dump")).unwrap();
+    let dumps = dumps.map(|entry| entry.unwrap().file_name().into_string().unwrap());
+    let (short, long): (Vec<String>, Vec<String>) = dumps.partition(|name| !name.contains("_s1_"));
+    assert_eq!((short.len(), long.len()), (4, 8), "{short:?} {long:?}");
+    assert!(
+        short.contains(&"dump_r00.008_p03750.0_f008.0.npy".to_owned()),
+        "{short:?}"
+    );
+}
+
+/// Symptom: a table in `set` kept keys that it did not name, unless it had another `law`, `kind` or
+/// `search`, so that the same line did different things. Cause: tables were merged key by key.
+#[test]
+fn a_table_that_is_set_replaces_the_whole_table() {
+    let place = Workplace::new();
+    place.write("scene.toml", &scene_file());
+    for (setting, is_there) in [
+        ("tank.radius=0.04", true),
+        ("tank = { radius = 0.04, floor = 0.0 }", true),
+        ("tank={radius=0.04}", false),
+        ("[tank]\nradius = 0.04", false),
+    ] {
+        let check = [
+            "check",
+            "scene.toml",
+            "--no-trial",
+            "--json",
+            "--set",
+            setting,
+        ];
+        let check: Value = serde_json::from_str(&place.phase(&check).code(0).stdout).unwrap();
+        let effects = check["effects"].as_array().unwrap();
+        assert!(
+            effects.contains(&"cylinder".into()),
+            "{setting}: {effects:?}"
+        );
+        assert_eq!(effects.contains(&"floor".into()), is_there, "{setting}");
+        // The same in a variant.
+        let set = setting.replace("tank.radius", "\"tank.radius\"");
+        let Some(set) = Some(set).filter(|set| !set.starts_with('[')) else {
+            continue;
+        };
+        let variant = format!("[[variant]]\nname = \"it\"\nset = {{ {set} }}\n");
+        let text = TinySweep::default().text() + &variant;
+        let sweep = sweep::from_str(&text, &place.path("sweep.toml")).unwrap();
+        let tank = sweep.jobs().unwrap()[0].scene.tank.clone().unwrap();
+        assert_eq!(
+            (tank.radius, tank.floor.is_some()),
+            (Some(0.04), is_there),
+            "{set}"
+        );
+    }
 }

@@ -1,6 +1,8 @@
 //! `phase check`: validates a file and says what would run.
 
 mod accuracy;
+mod answer;
+mod describe;
 mod stability;
 mod walls;
 
@@ -10,18 +12,17 @@ use crate::cli::options::Workers;
 use crate::cli::time_step::{self, Tightest, tightest_limits};
 use crate::cli::values;
 use crate::cli::{format, job, labels, overlaps};
+use answer::{Answer, ForecastAnswer};
+use describe::{describe_grid, describe_sweep, effects, line};
 use phase::cost::{Forecast, Leaves, forecast};
 use phase::dem::timestep::{Limit, StepMargin};
 use phase::document::LoadError;
-use phase::grid::{Axis, describe};
+use phase::grid::{Axis, describe as describe_point};
 use phase::run::Edits;
-use phase::scene::{FileKind, Scene, Start, Tank};
+use phase::scene::{FileKind, Scene};
 use phase::study::{AnyFile, AnyStudy};
 use phase::sweep::{Job, Sweep};
-use serde::Serialize;
-use serde_json::Value;
-use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Duration;
 
 /// Check a scene, sweep or study file and say what it would run, without running it.
@@ -72,8 +73,6 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         sweep.check_sieves(&jobs).map_err(labels::cannot_label)?;
     }
     console.result(describe_sweep(&sweep, jobs.len()));
-    console.result(line("effects", effects(&sweep.scene).join(", ")));
-    console.result(line("duration", describe_time(&sweep.scene)));
     let tightest = tightest_limits(&jobs);
     for text in describe_time_step(&tightest, &sweep.axes, console.is_verbose()) {
         console.result(line("time step", text));
@@ -90,51 +89,40 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     if let Some(wall) = &walls {
         console.result(line("walls", wall.describe(&sweep.axes)));
     }
-    let mut forecast = None;
+    let mut answer = Answer::new((arguments, kind), &sweep, &jobs, &tightest);
+    answer.walls = walls.map(|walls| walls.answer());
     if !arguments.no_trial {
-        // A silo ends its run when it is empty.
-        let may_end = jobs.iter().any(|job| job.scene.has_flow());
-        let found = print_forecast(&jobs, workers, may_end, Leaves::Records, console)?;
-        if let Some(disk) = found.disk {
-            let about = format!("about {}", format::bytes(disk));
-            console.result(line("  disk", about));
-        }
-        if let Some(settings) = &sweep.refine {
-            let all = sweep.points().saturating_mul(settings.replicates as usize);
-            let budget = settings.budget.min(all);
-            let times = budget as f64 / jobs.len().max(1) as f64;
-            console.result(line(
-                "  refined",
-                format_args!("at most {times:.1} times as long, with all {budget} runs"),
-            ));
-        }
-        forecast = Some(found);
+        let forecast = try_jobs(&sweep, &jobs, workers, console)?;
+        answer.forecast = Some(ForecastAnswer::new(&forecast, workers));
     }
-    let scene = &sweep.scene;
-    let (steps_per_frame, frames) = (scene.time.steps_per_frame(), scene.time.frames());
-    console.answer(&Answer {
-        file: &arguments.file,
-        kind: kind.name(),
-        title: sweep.title.as_deref().or(scene.title.as_deref()),
-        jobs: jobs.len(),
-        axes: sweep.axes.iter().map(AxisAnswer::of).collect(),
-        seeds: &sweep.seeds,
-        budget: sweep.refine.as_ref().map(|it| it.budget),
-        spheres: scene.spheres.count,
-        effects: effects(scene),
-        duration: scene.time.duration,
-        frames,
-        steps_per_frame,
-        dt: scene.time.dt,
-        safety_factor: scene.time.safety_factor,
-        limits: tightest
-            .iter()
-            .map(|limit| LimitAnswer::new(limit, &sweep.axes))
-            .collect(),
-        walls: walls.map(|walls| walls.answer()),
-        forecast: forecast.map(|forecast| ForecastAnswer::new(&forecast, workers)),
-    });
+    console.answer(&answer);
     Ok(Exit::Done)
+}
+
+/// Tries a few jobs, and prints what all will take.
+fn try_jobs(
+    sweep: &Sweep,
+    jobs: &[Job],
+    workers: usize,
+    console: &Console,
+) -> Result<Forecast, Failure> {
+    // A silo ends its run when it is empty.
+    let may_end = jobs.iter().any(|job| job.scene.has_flow());
+    let forecast = print_forecast(jobs, workers, may_end, Leaves::Records, console)?;
+    if let Some(disk) = forecast.disk {
+        let about = format!("about {}", format::bytes(disk));
+        console.result(line("  disk", about));
+    }
+    if let Some(settings) = &sweep.refine {
+        let all = sweep.points().saturating_mul(settings.replicates as usize);
+        let budget = settings.budget.min(all);
+        let times = budget as f64 / jobs.len().max(1) as f64;
+        console.result(line(
+            "  refined",
+            format_args!("at most {times:.1} times as long, with all {budget} runs"),
+        ));
+    }
+    Ok(forecast)
 }
 
 impl Arguments {
@@ -153,92 +141,8 @@ impl Arguments {
     }
 }
 
-fn line(name: &str, text: impl std::fmt::Display) -> String {
-    format!("  {name:<11} {text}")
-}
-
-fn describe_sweep(sweep: &Sweep, jobs: usize) -> String {
-    let title = sweep.title.as_ref().or(sweep.scene.title.as_ref());
-    let mut lines = describe_grid(title, &format::count(jobs, "job"), &sweep.axes);
-    let seeds: Vec<String> = sweep.seeds.iter().map(u64::to_string).collect();
-    let at_most = match sweep.refine {
-        Some(_) => " at most",
-        None => "",
-    };
-    lines.push(line("seeds", seeds.join(", ") + at_most));
-    if let Some(settings) = &sweep.refine {
-        let (round, budget) = (settings.round, settings.budget);
-        let text = match budget > jobs {
-            true => format!("{jobs} to start, then rounds of {round} up to {budget} in total"),
-            false => format!(
-                "{jobs} to start, which is the whole budget: increase `refine.budget` for rounds \
-                 of {round}"
-            ),
-        };
-        lines.push(line("refined", text));
-    }
-    lines.push(line("spheres", sweep.scene.spheres.count));
-    lines.join("\n")
-}
-
-/// Title and number of what is run, and the axes.
-fn describe_grid(title: Option<&String>, runs: &str, axes: &[Axis]) -> Vec<String> {
-    let mut lines = vec![match title {
-        Some(title) => format!("{title}: {runs}"),
-        None => runs.to_owned(),
-    }];
-    for axis in axes {
-        if axis.is_of_variants() {
-            lines.push(line(&axis.name, axis.words().join(", ")));
-            continue;
-        }
-        let ends = match axis.values.as_slice() {
-            [first, .., last] => format!("{first} to {last}, {} values", axis.values.len()),
-            values => format!("{values:?}"),
-        };
-        lines.push(line(&axis.name, format_args!("{ends} ({})", axis.key)));
-    }
-    lines
-}
-
-/// The effects that the scene names; no other costs anything.
-fn effects(scene: &Scene) -> Vec<String> {
-    let tank = scene.tank.as_ref();
-    let contact = scene.dem.contact.iter();
-    let friction = scene.dem.friction.iter();
-    let laws = contact
-        .map(|contact| format!("contact ({})", contact.law()))
-        .chain(friction.map(|friction| format!("friction ({})", friction.law())));
-    let others = [
-        (scene.dem.rolling.is_some(), "rolling resistance"),
-        (scene.dem.effects.added_mass.is_some(), "added mass"),
-        (tank.is_some_and(|tank| tank.radius.is_some()), "cylinder"),
-        (tank.is_some_and(Tank::has_sides), "sides"),
-        (tank.is_some_and(|tank| tank.floor.is_some()), "floor"),
-        (scene.dem.geometry.is_some(), "fixed spheres"),
-        (matches!(scene.start, Start::Feed { .. }), "feed"),
-        (scene.spot.is_some(), "spots"),
-        (scene.dem.door.is_some(), "door"),
-        (scene.dem.outlet.is_some(), "outlet"),
-    ];
-    let others = others.iter().filter(|(used, _)| *used);
-    let effects = scene.dem.effects.names().map(str::to_owned);
-    let others = others.map(|(_, name)| (*name).to_owned());
-    effects.chain(laws).chain(others).collect()
-}
-
-fn describe_time(scene: &Scene) -> String {
-    let (steps, frames) = (scene.time.steps_per_frame(), scene.time.frames());
-    let (duration, unit) = (scene.time.duration, scene.units().of_time());
-    if scene.spot.is_some() {
-        return format!("{duration} {unit} in {frames} frames");
-    }
-    let dt = scene.time.dt;
-    format!("{duration} {unit} in {frames} frames of {steps} steps of {dt} {unit}")
-}
-
-/// The time step over the decisive limit and over the advised ones; with `all`, over every limit,
-/// explained.
+/// The time step over the limit it must not exceed, and over those it had better not; with
+/// `all`, over every limit, explained.
 fn describe_time_step(tightest: &[Tightest<'_>], axes: &[Axis], all: bool) -> Vec<String> {
     let is_told =
         |(index, it): &(usize, &Tightest<'_>)| all || *index == 0 || it.standing.ratio > 1.0;
@@ -258,7 +162,7 @@ fn describe_limit(tightest: &Tightest<'_>, axes: &[Axis], explain: bool) -> Stri
         ..
     } = limit;
     let kind = if decisive { "limit" } else { "advised limit" };
-    let at = describe(axes, &tightest.job.values, tightest.job.seed);
+    let at = describe_point(axes, &tightest.job.values, tightest.job.seed);
     let ratio = match ratio < 0.01 {
         true => format!("{ratio:.0e}"),
         false => format!("{ratio:.2}"),
@@ -303,95 +207,6 @@ fn print_forecast(
         format_args!("about {}", format::bytes(forecast.memory)),
     ));
     Ok(forecast)
-}
-
-/// An axis of numbers or of variants, which are named.
-#[derive(Serialize)]
-struct AxisAnswer<'a> {
-    key: &'a str,
-    name: &'a str,
-    values: Vec<Value>,
-}
-
-impl<'a> AxisAnswer<'a> {
-    fn of(axis: &'a Axis) -> Self {
-        let value = |value: &f64| match axis.variant(*value) {
-            Some(variant) => variant.name.as_str().into(),
-            None => (*value).into(),
-        };
-        Self {
-            key: &axis.key,
-            name: &axis.name,
-            values: axis.values.iter().map(value).collect(),
-        }
-    }
-}
-
-/// The `--json` result.
-#[derive(Serialize)]
-struct Answer<'a> {
-    file: &'a Path,
-    kind: &'static str,
-    title: Option<&'a str>,
-    jobs: usize,
-    axes: Vec<AxisAnswer<'a>>,
-    seeds: &'a [u64],
-    /// Most runs of a refined sweep; `None` if the whole grid is run.
-    budget: Option<usize>,
-    spheres: usize,
-    effects: Vec<String>,
-    duration: f64,
-    frames: u64,
-    steps_per_frame: u64,
-    dt: f64,
-    /// The safety factor of `dt = "auto"`; `None` if the step was given.
-    safety_factor: Option<f64>,
-    limits: Vec<LimitAnswer>,
-    /// Whether walls of discs hold; `None` without such walls.
-    walls: Option<walls::Answer>,
-    forecast: Option<ForecastAnswer>,
-}
-
-/// A limit of the time step, and the job that comes closest to it.
-#[derive(Serialize)]
-struct LimitAnswer {
-    name: &'static str,
-    seconds: f64,
-    decisive: bool,
-    ratio: f64,
-    point: BTreeMap<String, Value>,
-    seed: u64,
-}
-
-impl LimitAnswer {
-    fn new(tightest: &Tightest<'_>, axes: &[Axis]) -> Self {
-        let StepMargin { limit, ratio } = tightest.standing;
-        Self {
-            name: limit.name,
-            seconds: limit.seconds,
-            decisive: limit.decisive,
-            ratio,
-            point: job::point(axes, &tightest.job.values),
-            seed: tightest.job.seed,
-        }
-    }
-}
-
-/// What the sweep will cost.
-#[derive(Serialize)]
-struct ForecastAnswer {
-    workers: usize,
-    #[serde(flatten)]
-    forecast: Forecast,
-}
-
-impl ForecastAnswer {
-    fn new(forecast: &Forecast, workers: usize) -> Self {
-        Self {
-            workers,
-            forecast: *forecast,
-        }
-    }
 }
 
 /// Time for the trial, about.

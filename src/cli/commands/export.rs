@@ -27,7 +27,8 @@ Formats:
         grains blue, to scale; a tank is seen from the side
   page  NAME.html, one page that plays the run in a browser, without any other file
   dump  dump_r..._p..._f....npy, the thesis's own: frames x spheres x 4 of x, y, z (m) and
-        energy (J); the name says radius, density and Omega, and the seed unless it is 1
+        energy (J); the name says radius, density and Omega, the seed unless it is 1, and the
+        name of the record where several would have one name
 
 If spheres enter or leave, xyz, vtk and csv hold the spheres inside, by their id, and npy holds NaN
 for the others. Fixed spheres go to NAME-fixed.xyz, NAME-fixed.csv, walls.npy and door.npy, and
@@ -190,7 +191,8 @@ struct FailedRecord {
     reason: String,
 }
 
-/// The target of each record, or why it has none. Refuses records with the same target.
+/// Where each record goes, or why it goes nowhere. Records that would go to one place are refused,
+/// but for dumps, whose names then say the names of the records too.
 fn targets(arguments: &Arguments) -> Result<Vec<Result<PathBuf, Failure>>, Failure> {
     let extension = arguments.to.extension();
     if let Some(out) = arguments.out.as_ref().filter(|out| !out.is_dir())
@@ -201,11 +203,15 @@ fn targets(arguments: &Arguments) -> Result<Vec<Result<PathBuf, Failure>>, Failu
         ))
         .at(out));
     }
+    let of_record = |path: &PathBuf| target(arguments, path).map_err(Failure::from);
+    let mut targets: Vec<Result<PathBuf, Failure>> =
+        arguments.records.iter().map(of_record).collect();
+    if arguments.to == Format::Dump {
+        tell_apart(&arguments.records, &mut targets);
+    }
     let mut written: HashMap<PathBuf, &Path> = HashMap::new();
-    let mut targets = Vec::new();
-    for path in &arguments.records {
-        let target = target(arguments, path).map_err(Failure::from);
-        if let Ok(target) = &target
+    for (path, target) in arguments.records.iter().zip(&targets) {
+        if let Ok(target) = target
             && let Some(other) = written.insert(target.clone(), path)
         {
             return Err(Failure::refused(format_args!(
@@ -216,9 +222,31 @@ fn targets(arguments: &Arguments) -> Result<Vec<Result<PathBuf, Failure>>, Failu
                 target.display()
             )));
         }
-        targets.push(target.and_then(|target| arguments.to.check(&target).map(|()| target)));
     }
-    Ok(targets)
+    let checked = targets.into_iter().map(|target| {
+        let target = target?;
+        arguments.to.check(&target).map(|()| target)
+    });
+    Ok(checked.collect())
+}
+
+/// Adds the names of records to dumps of one name: runs that differ in other keys than those that
+/// the name of a dump says, such as runs of variants.
+fn tell_apart(records: &[PathBuf], targets: &mut [Result<PathBuf, Failure>]) {
+    let mut times: HashMap<PathBuf, usize> = HashMap::new();
+    for target in targets.iter().flatten() {
+        *times.entry(target.clone()).or_default() += 1;
+    }
+    for (record, target) in records.iter().zip(targets) {
+        if let Ok(target) = target
+            && times[target] > 1
+            && let (Some(name), Some(run)) = (target.file_name(), record.file_stem())
+            && let Some(name) = DumpName::parse(&name.to_string_lossy())
+        {
+            let run = Some(run.to_string_lossy().into_owned());
+            target.set_file_name(DumpName { run, ..name }.to_string());
+        }
+    }
 }
 
 /// The target of an export: its main file, or the folder of its arrays.

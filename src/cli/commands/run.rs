@@ -1,24 +1,22 @@
 //! `phase run`: runs one scene, or one job of a sweep again.
 
 mod again;
+mod answer;
 mod interruptible;
 
 use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::values;
-use crate::cli::{folders, format, overlaps, time_step};
+use crate::cli::{folders, overlaps, time_step};
 use again::Original;
+use answer::{Answer, summary};
 use interruptible::Ran;
-use phase::dem::timestep::StepMargin;
 use phase::document::Problem;
-use phase::record::{Milestone, MilestoneKind, Outcome, RunRecord};
+use phase::record::RunRecord;
 use phase::resume::{Checkpoints, DEFAULT_INTERVAL};
-use phase::run::{Edits, frame_of_state, model_of};
-use phase::scene::{Scene, Start};
-use phase::simulation::Instability;
+use phase::run::{Edits, frame_of_state};
+use phase::scene::Scene;
 use phase::store::{self, Lease, StoreError};
-use serde::Serialize;
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -108,49 +106,18 @@ impl Arguments {
 }
 
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
-    // The parser asks for --from beside --point only where no scene file is given.
-    if arguments.point.is_some() && arguments.from.is_none() {
-        return Err(Failure::refused(
-            "--point selects a job of a sweep: give the sweep's results folder with --from instead \
-             of a scene file",
-        ));
-    }
-    let (mut scene, default_path, original) = match (&arguments.scene, &arguments.from) {
-        (Some(file), _) => {
-            let edits = Edits {
-                set: &arguments.set,
-                remove: &arguments.without,
-                options: &arguments.own_keys(),
-            };
-            let scene = Scene::load_with(file, edits);
-            let mut scene = scene?;
-            scene.seed = arguments.seed.unwrap_or(scene.seed);
-            (scene, default_record(file), None)
-        }
-        (None, Some(folder)) => {
-            let point = arguments.point.as_deref().unwrap_or_default();
-            let original = Original::find(folder, point, console)?;
-            let path = original.default_path();
-            (original.job.scene.clone(), path, Some(original))
-        }
-        // The parser of the command line asks for one of them.
-        (None, None) => return Err(Failure::refused("give a scene file, or --from and --point")),
-    };
+    let AskedRun {
+        mut scene,
+        record: default_path,
+        original,
+    } = AskedRun::of(arguments, console)?;
     ask_for_more(&mut scene, arguments)?;
     let path = arguments.out.clone().unwrap_or(default_path);
     if let Some(original) = &original {
         original.refuse_to_replace(&path)?;
     }
-    folders::refuse_to_replace(&path, "a record", store::HDF5_SIGNATURE)?;
-    if let Err(StoreError::NotARecord { .. }) = store::read_record_header(&path) {
-        folders::refuse_foreign(Path::new(""), [&path], "choose another name with --out")?;
-    }
     let table = scene.has_flow().then(|| beside(&path));
-    if let Some(table) = &table {
-        // The first columns of what is observed; spots have no energies.
-        let columns: [&[u8]; 2] = [b"time,height_mean,", b"time,kinetic,"];
-        folders::refuse_to_replace_any(table, "a table of observables", &columns)?;
-    }
+    refuse_foreign(&path, table.as_deref())?;
     folders::make_for(&path)?;
     let _lock = lock(&path)?;
     time_step::tell_of_scene(&scene, console);
@@ -182,16 +149,75 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         console.file(table);
     }
     checkpoints.remove()?;
-    let same_bits = match &original {
-        Some(original) => original.compare(&record, console)?,
-        None => None,
-    };
-    console.answer(&Answer {
-        resumed_from,
-        same_bits,
-        ..Answer::new(&record, seconds, &path)
-    });
+    let mut answer = Answer::new(&record, seconds, &path);
+    answer.resumed_from = resumed_from;
+    if let Some(original) = &original {
+        answer.same_bits = original.compare(&record, console)?;
+    }
+    console.answer(&answer);
     Ok(Exit::Done)
+}
+
+/// What the command line asks to run.
+struct AskedRun {
+    scene: Scene,
+    /// Where its record goes by default.
+    record: PathBuf,
+    /// The job of a sweep that is run again.
+    original: Option<Original>,
+}
+
+impl AskedRun {
+    fn of(arguments: &Arguments, console: &Console) -> Result<Self, Failure> {
+        // The parser asks for --from beside --point only where no scene file is given.
+        if arguments.point.is_some() && arguments.from.is_none() {
+            return Err(Failure::refused(
+                "--point selects a job of a sweep: give the sweep's results folder with --from \
+                 instead of a scene file",
+            ));
+        }
+        match (&arguments.scene, &arguments.from) {
+            (Some(file), _) => {
+                let edits = Edits {
+                    set: &arguments.set,
+                    remove: &arguments.without,
+                    options: &arguments.own_keys(),
+                };
+                let mut scene = Scene::load_with(file, edits)?;
+                scene.seed = arguments.seed.unwrap_or(scene.seed);
+                Ok(Self {
+                    scene,
+                    record: default_record(file),
+                    original: None,
+                })
+            }
+            (None, Some(folder)) => {
+                let point = arguments.point.as_deref().unwrap_or_default();
+                let original = Original::find(folder, point, console)?;
+                Ok(Self {
+                    scene: original.job.scene.clone(),
+                    record: original.default_path(),
+                    original: Some(original),
+                })
+            }
+            // The parser of the command line asks for one of them.
+            (None, None) => Err(Failure::refused("give a scene file, or --from and --point")),
+        }
+    }
+}
+
+/// Refuses to write where something else than a record, or than its table of observables, is.
+fn refuse_foreign(record: &Path, table: Option<&Path>) -> Result<(), Failure> {
+    folders::refuse_to_replace(record, "a record", store::HDF5_SIGNATURE)?;
+    if let Err(StoreError::NotARecord { .. }) = store::read_record_header(record) {
+        folders::refuse_foreign(Path::new(""), [record], "choose another name with --out")?;
+    }
+    if let Some(table) = table {
+        // The first columns of what is observed; spots have no energies.
+        let columns: [&[u8]; 2] = [b"time,height_mean,", b"time,kinetic,"];
+        folders::refuse_to_replace_any(table, "a table of observables", &columns)?;
+    }
+    Ok(())
 }
 
 /// Takes the right to write a record and what goes beside it.
@@ -269,146 +295,4 @@ fn default_record(file: &Path) -> PathBuf {
     Path::new("results")
         .join(file.file_stem().unwrap_or("scene".as_ref()))
         .with_added_extension("h5")
-}
-
-/// The `--json` result.
-#[derive(Serialize)]
-struct Answer<'a> {
-    record: &'a Path,
-    seed: u64,
-    outcome: &'static str,
-    /// How an unstable run ended.
-    instability: Option<&'a Instability>,
-    seconds: f64,
-    cpu_seconds: f64,
-    sphere_steps: u64,
-    frames: usize,
-    /// Time step (s), over the limit above which it is refused, and the name of that limit.
-    dt: f64,
-    dt_over_limit: Option<f64>,
-    limit: Option<&'static str>,
-    /// What happened once, and when (s), where spheres come or go.
-    milestones: Vec<Milestone>,
-    /// Expected events that did not happen.
-    unmet: Vec<String>,
-    /// Time (s) and every scalar observable of the last frame, in the units of the record.
-    last_frame: BTreeMap<&'a str, f64>,
-    /// Time (s) of the checkpoint from which the run continued; `None` if it began at its start.
-    resumed_from: Option<f64>,
-    /// Whether a job that was run again gave the bits of the sweep's record; `None` without one.
-    same_bits: Option<bool>,
-}
-
-impl<'a> Answer<'a> {
-    fn new(record: &'a RunRecord, seconds: f64, path: &'a Path) -> Self {
-        let observations = &record.observations;
-        let mut last_frame = BTreeMap::new();
-        last_frame.extend(observations.time.last().map(|time| ("time", *time)));
-        for series in observations.scalars() {
-            let last = series.values.last();
-            last_frame.extend(last.map(|value| (series.name, f64::from(*value))));
-        }
-        let (outcome, instability) = match &record.outcome {
-            Outcome::Completed => ("completed", None),
-            Outcome::Unstable(instability) => ("unstable", Some(instability)),
-        };
-        let standing = StepMargin::decisive(&record.scene);
-        Self {
-            record: path,
-            seed: record.scene.seed,
-            outcome,
-            instability,
-            seconds,
-            cpu_seconds: record.cpu_seconds,
-            sphere_steps: record.work,
-            frames: observations.frames(),
-            dt: record.scene.time.dt,
-            dt_over_limit: standing.map(|it| it.ratio),
-            limit: standing.map(|it| it.limit.name),
-            milestones: record.milestones.clone(),
-            unmet: unmet(record),
-            last_frame,
-            resumed_from: None,
-            same_bits: None,
-        }
-    }
-}
-
-/// Expected events that did not happen.
-fn unmet(record: &RunRecord) -> Vec<String> {
-    let scene = &record.scene;
-    let happened = |kind| record.milestones.iter().any(|it| it.kind == kind);
-    let last = |series: &[f32]| series.last().map_or(0.0, |count| *count);
-    let (observations, all) = (&record.observations, record.radius.len());
-    let mut unmet = Vec::new();
-    if matches!(scene.start, Start::Feed { .. }) && !happened(MilestoneKind::Filled) {
-        unmet.push(format!(
-            "NOT FILLED: {} of {all} spheres entered; the inlet was blocked, or the run ended too \
-             early",
-            last(&observations.released)
-        ));
-    }
-    if scene.dem.rest.is_some()
-        && !happened(MilestoneKind::AtRest)
-        && !happened(MilestoneKind::Emptied)
-    {
-        unmet.push("NEVER AT REST".to_owned());
-    }
-    if scene.dem.door.is_some() && !happened(MilestoneKind::DoorOpened) {
-        unmet.push("THE DOOR NEVER OPENED".to_owned());
-    }
-    if record.is_steady() == Some(false) {
-        unmet.push("NOT STEADY: the run reached its duration first".to_owned());
-    }
-    let spilled = last(&observations.spilled);
-    if spilled > 0.0 {
-        unmet.push(format!(
-            "SPILLED: {spilled} spheres left before the door opened, over the rim or past the silo"
-        ));
-    }
-    unmet
-}
-
-/// How the run ended, and the state of its last frame.
-fn summary(record: &RunRecord, seconds: f64) -> String {
-    let observations = &record.observations;
-    let steps = record.work as f64;
-    let mut text = match &record.outcome {
-        Outcome::Completed => "completed".to_owned(),
-        Outcome::Unstable(instability) => format!("unstable: {instability}"),
-    };
-    text += &format!(
-        "\n  {:<14} {} ({})",
-        "took",
-        format::duration(seconds),
-        format::rate(
-            steps / record.cpu_seconds.max(1e-9),
-            model_of(&record.scene).work_unit()
-        )
-    );
-    text += &format!("\n  {:<14} {}", "frames", observations.frames());
-    for milestone in &record.milestones {
-        text += &format!(
-            "\n  {:<14} at {}",
-            milestone.kind.name(),
-            format::time(milestone.time)
-        );
-    }
-    for unmet in unmet(record) {
-        text += &format!("\n  {unmet}");
-    }
-    if let Some(time) = observations.time.last() {
-        text += &format!("\nlast frame, at {}", format::time(*time));
-    }
-    for series in observations.scalars() {
-        // Without spheres there are no means.
-        if let Some(value) = series.values.last().filter(|value| value.is_finite()) {
-            let value = format!("{value:.4e}");
-            text += &format!(
-                "\n  {:<14} {value:>11} {:<6} {}",
-                series.name, series.unit, series.description
-            );
-        }
-    }
-    text
 }

@@ -90,27 +90,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     let folder = folder_of(&sweep, arguments)?;
     let stop = interrupt::stop_on_signal(console)?;
 
-    folder.create()?;
-    let access = enter(&folder, &sweep, arguments, console)?;
-    refuse_another_file(&folder, &sweep, arguments)?;
-    if !arguments.no_classify {
-        let again = jobs_made_again(&folder, &sweep);
-        let kept = jobs.iter().chain(&again).map(|job| job.id.as_str());
-        refuse_to_lose_labels(&folder, kept)?;
-    }
-    tell_of_other_sweep(&folder, &sweep, console);
-    time_step::tell_of_jobs(&jobs, &sweep.axes, console);
-    overlaps::warn_of_jobs(&jobs, &sweep.axes, console);
-    if !arguments.no_classify {
-        labels::warn_of_windows(&sweep, &jobs, console);
-    }
-    if access.is_alone() {
-        folder.note_source(&arguments.file)?;
-    }
-    let _access = match arguments.force {
-        true => access,
-        false => folder.open(access, &sweep)?,
-    };
+    let _access = open(&folder, &sweep, &jobs, arguments, console)?;
     let rounds = Rounds {
         folder: &folder,
         workers,
@@ -136,7 +116,6 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     let mut answer = Answer::new(&folder, &plan, &sweep, &run);
     answer.refined =
         refinement.and_then(|it| refined::Answer::new(&sweep, Some(it.refining()), it.runs()));
-
     if stop.load(Ordering::Relaxed) {
         console.note(format_args!(
             "interrupted; {} left. The same command continues",
@@ -158,22 +137,64 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     if !arguments.no_classify
         && let Some(_lease) = lease_of_labels(&folder, console)?
     {
-        let labelled = labels::label_folder(&folder, &sweep, &jobs, workers, console);
-        let labelled = labelled.inspect_err(|_| console.answer_with_files(&answer))?;
-        failed |= !labelled.problems.is_empty();
-        if !arguments.no_plot {
-            let problems = figures::draw_default_figures(&folder, &sweep, &labelled.table, console);
-            failed |= !problems.is_empty();
-            answer.problems = problems;
-        }
-        tell_of_earlier_borders(&folder, &sweep, console);
-        answer.labels = Some(labels::Summary::new(&folder, &labelled));
+        let labelled = label((&folder, &sweep, &jobs), arguments, &mut answer, console);
+        failed |= labelled.inspect_err(|_| console.answer_with_files(&answer))?;
     }
     console.answer_with_files(&answer);
     Ok(if failed { Exit::Failed } else { Exit::Done })
 }
 
-/// The results folder. Refuses a folder in which a file of another program is in the way.
+/// Takes the results folder for a sweep, and says what its jobs may suffer from. Refuses a folder
+/// that is another's.
+fn open(
+    folder: &Folder,
+    sweep: &Sweep,
+    jobs: &[Job],
+    arguments: &Arguments,
+    console: &Console,
+) -> Result<Access, Failure> {
+    folder.create()?;
+    let access = enter(folder, sweep, arguments, console)?;
+    refuse_another_file(folder, sweep, arguments)?;
+    if !arguments.no_classify {
+        let again = jobs_made_again(folder, sweep);
+        let kept = jobs.iter().chain(&again).map(|job| job.id.as_str());
+        refuse_to_lose_labels(folder, kept)?;
+    }
+    tell_of_other_sweep(folder, sweep, console);
+    time_step::tell_of_jobs(jobs, &sweep.axes, console);
+    overlaps::warn_of_jobs(jobs, &sweep.axes, console);
+    if !arguments.no_classify {
+        labels::warn_of_windows(sweep, jobs, console);
+    }
+    if access.is_alone() {
+        folder.note_source(&arguments.file)?;
+    }
+    Ok(match arguments.force {
+        true => access,
+        false => folder.open(access, sweep)?,
+    })
+}
+
+/// Labels the runs and draws the figures; returns whether anything of it failed.
+fn label(
+    (folder, sweep, jobs): (&Folder, &Sweep, &[Job]),
+    arguments: &Arguments,
+    answer: &mut Answer,
+    console: &Console,
+) -> Result<bool, Failure> {
+    let workers = arguments.workers.count();
+    let labelled = labels::label_folder(folder, sweep, jobs, workers, console)?;
+    if !arguments.no_plot {
+        let problems = figures::draw_default_figures(folder, sweep, &labelled.table, console);
+        answer.problems = problems;
+    }
+    tell_of_earlier_borders(folder, sweep, console);
+    answer.labels = Some(labels::Summary::new(folder, &labelled));
+    Ok(!labelled.problems.is_empty() || !answer.problems.is_empty())
+}
+
+/// The results folder. Refuses one where a file of another program is in the way.
 fn folder_of(sweep: &Sweep, arguments: &Arguments) -> Result<Folder, Failure> {
     let root = arguments.out.clone();
     let mut folder = Folder::new(root.unwrap_or_else(|| folders::default_folder(&arguments.file)));

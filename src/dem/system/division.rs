@@ -10,7 +10,6 @@
 use super::candidates::{AtWalls, Candidates};
 use super::contact_task::{Buffers, ContactSettings, ContactSlice, ContactTask, TooDeep};
 use super::partners::{Copies, Partners};
-use super::stream::Stream;
 use super::sums::Sums;
 use super::wall_contacts::WallContacts;
 use crate::dem::bodies::SphereRows;
@@ -20,7 +19,6 @@ use crate::dem::walls::TankWall;
 use crate::forces::contact::NormalLaw;
 use crate::forces::friction::{History, TangentialLaw};
 use crate::particles::block::BLOCK;
-use crate::particles::bodies::Bodies;
 use fearless_simd::Level;
 use std::ops::Range;
 
@@ -196,13 +194,14 @@ impl<H: History> Division<H> {
         first_too_deep(tasks.iter().map(|task| task.too_deep))
     }
 
-    /// The work of each thread, if it moves its spheres in the same pass.
-    pub(super) fn streams<'a>(
+    /// What `work` makes for each thread, if it moves its spheres in the same pass: of its spheres,
+    /// its contacts, and copies of the spheres around the boundaries before and after them.
+    pub(super) fn share_out<'a, W>(
         &'a mut self,
         mut all: SphereRows<'a>,
         candidates: Candidates<'a, H>,
-        bodies: &'a mut [Bodies],
-    ) -> Vec<Stream<'a, H>> {
+        mut work: impl FnMut(SphereRows<'a>, ThreadContacts<'a, H>, Around<'a>) -> W,
+    ) -> Vec<W> {
         let Self {
             regions,
             boundaries,
@@ -212,14 +211,15 @@ impl<H: History> Division<H> {
         let around: Vec<_> = boundaries.iter().map(around).collect();
         let before = std::iter::once(None).chain(around.iter().copied());
         let after = around.iter().copied().chain(std::iter::once(None));
-        let thread_contacts = Self::thread_contacts(regions, candidates).zip(bodies);
-        let streams = thread_contacts.zip(before.zip(after));
-        let streams = streams.map(|(((spheres, contacts), bodies), copies)| {
-            Stream::new(all.split(spheres.len()), contacts, bodies, copies)
-        });
-        streams.collect()
+        let parts = Self::thread_contacts(regions, candidates).zip(before.zip(after));
+        parts
+            .map(|((spheres, contacts), around)| work(all.split(spheres.len()), contacts, around))
+            .collect()
     }
 }
+
+/// Copies of the spheres before and after those of a thread.
+pub(super) type Around<'a> = (Option<Partners<'a>>, Option<Partners<'a>>);
 
 /// Rounds an index down to a multiple of [`BLOCK`]: effects work on whole blocks.
 fn whole_blocks(sphere: usize) -> usize {

@@ -89,7 +89,13 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         let spheres = SphereRows::new(&mut self.particles, near.anchor().position());
         let candidates = Candidates::all(near.pairs(), &mut self.pair_history, &mut self.walls);
         let mut streams = match &mut self.division {
-            Some(division) => division.streams(spheres, candidates, bodies),
+            Some(division) => {
+                let mut bodies = bodies.iter_mut();
+                division.share_out(spheres, candidates, |spheres, contacts, around| {
+                    let bodies = bodies.next().expect("each thread has bodies");
+                    Stream::new(spheres, contacts, bodies, around)
+                })
+            }
             None => {
                 let all = ThreadContacts::all(candidates, &mut self.buffers);
                 vec![Stream::new(spheres, all, &mut bodies[0], (None, None))]

@@ -1,6 +1,6 @@
 //! The drag law that swirl and updraught share: force from the difference of two velocities.
 
-use super::schiller_naumann::{self, SchillerNaumann};
+use super::schiller_naumann::{FAST, SchillerNaumann};
 use super::{Effect, EffectKeys, Effects, SceneFacts, Targets};
 use crate::document::quantities::fluid_density;
 use crate::document::{Problem, quantity};
@@ -9,10 +9,10 @@ use crate::forces::simplification::{MeanSphere, Simplification};
 use crate::particles::block::BLOCK;
 use crate::particles::bodies::Bodies;
 use crate::particles::reorder::reorder;
-use crate::particles::vector::Vector;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
+use std::f64::consts::PI;
 
 /// Drag law and the form of its quadratic part.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -205,7 +205,7 @@ impl EffectKeys for Drag {
         mean: &MeanSphere,
     ) -> Vec<Simplification> {
         let mut all = match self.law {
-            DragLaw::SchillerNaumann => schiller_naumann::simplifications(self),
+            DragLaw::SchillerNaumann => self.of_slow_and_fast_flow(),
             _ => self.linear_instead(all, mean).into_iter().collect(),
         };
         if let Form::Vector | Form::Components = self.kernel() {
@@ -249,10 +249,72 @@ impl Drag {
         (self.quadratic != 0.0 && weight > 0.0).then(|| Simplification::setting(name, set))
     }
 
+    /// The limits of Schiller and Naumann's law for slow and fast flow as simpler laws: linear
+    /// (Stokes) and quadratic (Newton).
+    fn of_slow_and_fast_flow(&self) -> Vec<Simplification> {
+        let Some((viscosity, density)) = self.viscosity.zip(self.density) else {
+            return Vec::new();
+        };
+        let simpler = |name: &str, law: DragLaw, key: &'static str, coefficient: f64| {
+            let set = [("drag.law", json!(law)), (key, json!(coefficient))];
+            Simplification::setting(name, set).removing(["drag.viscosity", "drag.density"])
+        };
+        let stokes = "Schiller-Naumann drag to linear (Stokes)";
+        let newton = "Schiller-Naumann drag to quadratic (C_d = 0.44)";
+        vec![
+            simpler(
+                stokes,
+                DragLaw::Diameter,
+                "drag.linear",
+                3.0 * PI * viscosity,
+            ),
+            // pi/8 D^2 is half the cross-section.
+            simpler(
+                newton,
+                DragLaw::CrossSection,
+                "drag.quadratic",
+                0.5 * FAST * density,
+            ),
+        ]
+    }
+
+    /// Missing keys of Schiller and Naumann's law, and keys that belong to other laws.
+    fn problems_of_schiller_naumann(&self) -> Vec<Problem> {
+        let missing = [
+            (
+                "drag.viscosity",
+                self.viscosity,
+                "air has 1.8e-5 Pa s, water 1e-3 Pa s",
+            ),
+            (
+                "drag.density",
+                self.density,
+                "air has 1.2 kg/m3, water 1000 kg/m3",
+            ),
+        ];
+        let missing = missing.iter().filter(|(_, value, _)| value.is_none());
+        let missing = missing.map(|(path, _, known)| {
+            let name = path.trim_start_matches("drag.");
+            let message = format!("the law `schiller-naumann` needs the fluid's `{name}`");
+            Problem::new("drag", message).help(format!("add `{name}` to [drag]: {known}"))
+        });
+        let strange = [
+            ("drag.linear", self.linear),
+            ("drag.quadratic", self.quadratic),
+        ];
+        let strange = strange.iter().filter(|(_, value)| *value != 0.0);
+        let strange = strange.map(|(path, _)| {
+            let message = format!("`{path}` does not go with `law = \"schiller-naumann\"`");
+            let help = "remove it: the force follows from `viscosity` and `density`";
+            Problem::new(*path, message).help(help).at_key()
+        });
+        missing.chain(strange).collect()
+    }
+
     /// The problems of keys that do not go with the law.
     fn problems_of_law(&self) -> Vec<Problem> {
         if self.law == DragLaw::SchillerNaumann {
-            let mut problems = schiller_naumann::problems(self);
+            let mut problems = self.problems_of_schiller_naumann();
             if self.form == DragForm::Component {
                 let message =
                     "`form = \"component\"` does not go with `law = \"schiller-naumann\"`";
@@ -283,68 +345,6 @@ pub(super) fn missing_drag(all: &Effects, name: &str) -> Vec<Problem> {
     let message = format!("[{name}] needs a drag law, but there is no [drag]");
     let help = "add [drag] with `law` and `linear` or `quadratic`";
     vec![Problem::new(name, message).help(help)]
-}
-
-/// Force of the air on a sphere from the velocity of the air relative to it, for the
-/// coefficients c1 (kg/s) and c2 (kg/m) of the sphere.
-pub(super) trait DragKernel: Copy + Send + Sync + 'static {
-    /// Force (N) for the relative velocity of the air (m/s).
-    fn vector(c1: f64, c2: f64, air: Vector) -> Vector;
-
-    /// The same along one axis alone.
-    fn along(c1: f64, c2: f64, air: f64) -> f64;
-}
-
-/// c1 u.
-#[derive(Clone, Copy)]
-pub(super) struct LinearDrag;
-
-impl DragKernel for LinearDrag {
-    #[inline(always)]
-    fn vector(c1: f64, _: f64, air: Vector) -> Vector {
-        air * c1
-    }
-
-    #[inline(always)]
-    fn along(c1: f64, _: f64, air: f64) -> f64 {
-        c1 * air
-    }
-}
-
-/// (c1 + c2 |u|) u, isotropic.
-#[derive(Clone, Copy)]
-pub(super) struct QuadraticVector;
-
-impl DragKernel for QuadraticVector {
-    #[inline(always)]
-    fn vector(c1: f64, c2: f64, air: Vector) -> Vector {
-        air * (c1 + c2 * air.norm())
-    }
-
-    #[inline(always)]
-    fn along(c1: f64, c2: f64, air: f64) -> f64 {
-        (c1 + c2 * air.abs()) * air
-    }
-}
-
-/// (c1 + c2 |u_x|) u_x and so on: each component separately, as in the thesis.
-#[derive(Clone, Copy)]
-pub(super) struct QuadraticComponents;
-
-impl DragKernel for QuadraticComponents {
-    #[inline(always)]
-    fn vector(c1: f64, c2: f64, air: Vector) -> Vector {
-        Vector::new(
-            Self::along(c1, c2, air.x),
-            Self::along(c1, c2, air.y),
-            Self::along(c1, c2, air.z),
-        )
-    }
-
-    #[inline(always)]
-    fn along(c1: f64, c2: f64, air: f64) -> f64 {
-        (c1 + c2 * air.abs()) * air
-    }
 }
 
 /// Which kernel a drag law needs.

@@ -3,8 +3,10 @@
 mod added_mass;
 mod buoyancy;
 mod drag;
+mod drag_kernel;
 mod gravity;
 mod magnus;
+mod one_body;
 mod schiller_naumann;
 mod spin_damping;
 mod swirl;
@@ -15,6 +17,7 @@ pub use buoyancy::Buoyancy;
 pub use drag::{Drag, DragForm, DragLaw};
 pub use gravity::Gravity;
 pub use magnus::Magnus;
+pub(crate) use one_body::Effect;
 pub use spin_damping::SpinDamping;
 pub use swirl::Swirl;
 pub use updraught::Updraught;
@@ -22,11 +25,8 @@ pub use updraught::Updraught;
 use super::limit::{Limit, Regime};
 use super::simplification::{MeanSphere, Simplification};
 use crate::document::Problem;
-use crate::particles::Particles;
-use crate::particles::bodies::{Asked, Bodies};
-use crate::particles::vector::Vector;
 use drag::Form;
-use fearless_simd::Level;
+use one_body::OneBody;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -334,87 +334,10 @@ impl Effects {
     }
 }
 
-/// An effect adds to the forces and torques of the spheres.
-pub(crate) trait Effect: Send + Sync {
-    /// Prepares a step. `shielding` is, for each sphere, the number of lower spheres that shield it
-    /// from the updraught; empty in a scene without updraught.
-    fn prepare(&mut self, shielding: &[u32]);
-
-    /// Adds its forces and torques to a block of spheres.
-    fn apply(&self, level: Level, bodies: &mut Bodies);
-
-    /// Which columns it reads.
-    fn asks(&self) -> Asked;
-
-    /// The acceleration (m/s2), if it only accelerates all spheres equally; the block loop is then
-    /// skipped.
-    fn acceleration(&self) -> Option<Vector>;
-
-    /// Reorders per-sphere arrays after the spheres were sorted.
-    fn reorder(&mut self, order: &[u32]);
-
-    /// The potential energy (J) of all spheres, if the force has one.
-    fn energy(&self, particles: &Particles) -> Option<f64>;
-}
-
-/// The loop of an effect, compiled once per instruction set.
-trait OneBody: Send + Sync {
-    /// As [`Effect::asks`].
-    const ASKS: Asked;
-
-    /// As [`Effect::prepare`].
-    fn prepare(&mut self, _shielding: &[u32]) {}
-
-    /// As [`Effect::apply`]; implementations must be inlined always.
-    fn add(&self, bodies: &mut Bodies);
-
-    /// As [`Effect::acceleration`].
-    fn acceleration(&self) -> Option<Vector> {
-        None
-    }
-
-    /// As [`Effect::reorder`]; needed if the effect [keeps numbers per
-    /// sphere](EffectKeys::keeps_numbers_per_sphere).
-    fn reorder(&mut self, _order: &[u32]) {}
-
-    /// As [`Effect::energy`].
-    fn energy(&self, _particles: &Particles) -> Option<f64> {
-        None
-    }
-}
-
-impl<E: OneBody> Effect for E {
-    fn prepare(&mut self, shielding: &[u32]) {
-        OneBody::prepare(self, shielding);
-    }
-
-    fn apply(&self, level: Level, bodies: &mut Bodies) {
-        fearless_simd::dispatch!(level, simd => {
-            let _ = simd;
-            self.add(bodies);
-        });
-    }
-
-    fn asks(&self) -> Asked {
-        E::ASKS
-    }
-
-    fn acceleration(&self) -> Option<Vector> {
-        OneBody::acceleration(self)
-    }
-
-    fn reorder(&mut self, order: &[u32]) {
-        OneBody::reorder(self, order);
-    }
-
-    fn energy(&self, particles: &Particles) -> Option<f64> {
-        OneBody::energy(self, particles)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::particles::Particles;
 
     /// The ledger books the work of the effects after those with a potential energy.
     #[test]

@@ -1,15 +1,11 @@
 //! The drag of a sphere from creeping to fast flow.
 
-use super::drag::DragKernel;
-use super::{Drag, DragLaw};
-use crate::document::Problem;
-use crate::forces::simplification::Simplification;
+use super::drag_kernel::DragKernel;
 use crate::particles::vector::Vector;
-use serde_json::json;
 use std::f64::consts::PI;
 
 /// C_d of fast flow, as in Newton's law.
-const FAST: f64 = 0.44;
+pub(super) const FAST: f64 = 0.44;
 
 /// Schiller and Naumann (Z. Ver. Dtsch. Ing. 77, 318 (1933)): F = (pi/8) C_d rho D^2 |u| u with
 ///
@@ -86,67 +82,6 @@ impl DragKernel for SchillerNaumann {
     fn along(c1: f64, c2: f64, air: f64) -> f64 {
         c1 * over_stokes(c2 * air.abs()) * air
     }
-}
-
-/// Its limits for slow and fast flow as simpler laws: linear (Stokes) and quadratic (Newton).
-pub(super) fn simplifications(drag: &Drag) -> Vec<Simplification> {
-    let Some((viscosity, density)) = drag.viscosity.zip(drag.density) else {
-        return Vec::new();
-    };
-    let simpler = |name: &str, law: DragLaw, key: &'static str, coefficient: f64| {
-        let set = [("drag.law", json!(law)), (key, json!(coefficient))];
-        Simplification::setting(name, set).removing(["drag.viscosity", "drag.density"])
-    };
-    let stokes = "Schiller-Naumann drag to linear (Stokes)";
-    let newton = "Schiller-Naumann drag to quadratic (C_d = 0.44)";
-    vec![
-        simpler(
-            stokes,
-            DragLaw::Diameter,
-            "drag.linear",
-            3.0 * PI * viscosity,
-        ),
-        // pi/8 D^2 is half the cross-section.
-        simpler(
-            newton,
-            DragLaw::CrossSection,
-            "drag.quadratic",
-            0.5 * FAST * density,
-        ),
-    ]
-}
-
-/// Missing keys of this law, and keys that belong to other laws.
-pub(super) fn problems(drag: &Drag) -> Vec<Problem> {
-    let missing = [
-        (
-            "drag.viscosity",
-            drag.viscosity,
-            "air has 1.8e-5 Pa s, water 1e-3 Pa s",
-        ),
-        (
-            "drag.density",
-            drag.density,
-            "air has 1.2 kg/m3, water 1000 kg/m3",
-        ),
-    ];
-    let missing = missing.iter().filter(|(_, value, _)| value.is_none());
-    let missing = missing.map(|(path, _, known)| {
-        let name = path.trim_start_matches("drag.");
-        let message = format!("the law `schiller-naumann` needs the fluid's `{name}`");
-        Problem::new("drag", message).help(format!("add `{name}` to [drag]: {known}"))
-    });
-    let strange = [
-        ("drag.linear", drag.linear),
-        ("drag.quadratic", drag.quadratic),
-    ];
-    let strange = strange.iter().filter(|(_, value)| *value != 0.0);
-    let strange = strange.map(|(path, _)| {
-        let message = format!("`{path}` does not go with `law = \"schiller-naumann\"`");
-        let help = "remove it: the force follows from `viscosity` and `density`";
-        Problem::new(*path, message).help(help).at_key()
-    });
-    missing.chain(strange).collect()
 }
 
 #[cfg(test)]

@@ -1,8 +1,7 @@
 //! Drag toward air in rigid rotation about the axis, and the pressure of a rotating fluid.
 
-use super::drag::{
-    Coefficients, DragKernel, Form, LinearDrag, QuadraticComponents, QuadraticVector, missing_drag,
-};
+use super::drag::{Coefficients, Form, missing_drag};
+use super::drag_kernel::{DragKernel, LinearDrag, QuadraticComponents, QuadraticVector};
 use super::schiller_naumann::SchillerNaumann;
 use super::{Effect, EffectKeys, Effects, OneBody, SceneFacts, Targets};
 use crate::document::{Problem, quantity};

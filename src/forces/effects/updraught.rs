@@ -1,6 +1,7 @@
 //! Rising air with the rectangular counting shield.
 
-use super::drag::{Coefficients, DragKernel, Form, LinearDrag, QuadraticComponents, missing_drag};
+use super::drag::{Coefficients, Form, missing_drag};
+use super::drag_kernel::{DragKernel, LinearDrag, QuadraticComponents};
 use super::schiller_naumann::SchillerNaumann;
 use super::{Effect, EffectKeys, Effects, OneBody, SceneFacts, Swirl, Targets};
 use crate::document::quantities::{fraction, place};

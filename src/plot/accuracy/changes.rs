@@ -39,6 +39,7 @@ pub(super) fn draw(
                 head: Some(outcome.name.clone()),
                 column: None,
                 row: None,
+                own: [None, None],
                 cells: cells(comparison, points, &x, y.as_ref()),
             })
             .collect(),

@@ -2,11 +2,12 @@
 
 use super::color;
 use crate::plot::axes::Plot;
+use crate::plot::canvas::{Drawn, FigureSheet};
 use crate::plot::legend::{LegendEntry, LegendKey};
 use crate::plot::page::{FigurePage, PagePlan, PanelFrame};
 use crate::plot::scale::AxisSpan;
 use crate::plot::spacing::AxisSpacing;
-use crate::plot::style::{self, Drawn, FigureSheet, px};
+use crate::plot::style::{self, px};
 use crate::plot::svg::Svg;
 use crate::plot::{PlotError, palette};
 use crate::record::Program;

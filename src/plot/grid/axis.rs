@@ -29,6 +29,8 @@ pub(in crate::plot) struct GridAxis {
     pub(in crate::plot) index: usize,
     /// Whether its values stand at equal distances, whatever they are.
     pub(in crate::plot) is_even: bool,
+    /// Whether variants scale its values by different factors, which are left out.
+    pub(in crate::plot) is_scaled: bool,
     /// Names of the variants that its values are; empty for numbers.
     pub(in crate::plot) words: Vec<String>,
 }
@@ -48,7 +50,8 @@ impl GridAxis {
         Self { is_even, ..self }
     }
 
-    /// The axis of that index among `axes` over keys of a scene, with more values than its own.
+    /// The axis of that index among `axes` over keys of a scene, with more values than its own. If
+    /// variants would show its values in different ways, these are shown as the axis has them.
     pub(in crate::plot) fn over(
         index: usize,
         axes: &[Axis],
@@ -60,28 +63,79 @@ impl GridAxis {
         values.extend(more);
         values.sort_by(f64::total_cmp);
         values.dedup();
-        let (symbol, unit) = match scene.notation(&axis.key) {
-            Some(notation) => (format!("${}$", notation.symbol), notation.unit.to_owned()),
-            None => {
-                let share = share_of(axis, scene);
-                (share.unwrap_or_else(|| axis.name.clone()), String::new())
-            }
-        };
-        let other_shares = share_index(axis).map(|index| other_shares(index, scene));
-        let mut shown = Self {
+        let plain = Self {
             key: axis.key.clone(),
             name: axis.name.clone(),
             values,
             factor: 1.0,
-            other_shares,
-            symbol,
-            unit,
+            other_shares: None,
+            symbol: axis.name.clone(),
+            unit: String::new(),
             index,
             is_even: false,
+            is_scaled: false,
             words: axis.variants.iter().map(|it| it.name.clone()).collect(),
         };
-        if let Some((scale, symbol)) = scale(&axis.key, axes, scene) {
-            shown.factor = 1.0 / scale;
+        let mut of_variants = axes
+            .iter()
+            .flat_map(|axis| &axis.variants)
+            .map(|variant| plain.shown_in(axes, &variant.scene, variant.factor(&axis.name)));
+        let Some(first) = of_variants.next() else {
+            return plain.shown_in(axes, scene, 1.0);
+        };
+        if of_variants.all(|other| other.is_shown_like(&first)) {
+            return first;
+        }
+        let mut variants = axes.iter().flat_map(|axis| &axis.variants);
+        let mut shown = match share_index(&axis.key) {
+            // Shares themselves are no parts of all.
+            Some(_) => plain,
+            None => plain.noted_in(scene),
+        };
+        shown.is_scaled = variants.any(|variant| variant.factor(&axis.name) != 1.0);
+        shown
+    }
+
+    /// The axis of the points of one variant, by its place.
+    pub(in crate::plot) fn of_variant(&self, place: f64, axes: &[Axis]) -> Option<Self> {
+        let variant = axes.iter().find_map(|axis| axis.variant(place))?;
+        Some(self.shown_in(axes, &variant.scene, variant.factor(&self.name)))
+    }
+
+    /// Whether both show values in the same way.
+    pub(in crate::plot) fn is_shown_like(&self, other: &Self) -> bool {
+        let way = |it: &Self| (it.factor, it.other_shares, it.is_scaled);
+        way(self) == way(other) && self.label() == other.label()
+    }
+
+    /// The axis with the symbol and unit of its key in a scene.
+    fn noted_in(&self, scene: &Scene) -> Self {
+        let (symbol, unit) = match scene.notation(&self.key) {
+            Some(notation) => (format!("${}$", notation.symbol), notation.unit.to_owned()),
+            None => {
+                let share = share_of(&self.key, scene);
+                (share.unwrap_or_else(|| self.name.clone()), String::new())
+            }
+        };
+        Self {
+            factor: 1.0,
+            other_shares: None,
+            symbol,
+            unit,
+            is_scaled: false,
+            ..self.clone()
+        }
+    }
+
+    /// The axis as it is shown where all points start from a scene and have its values times a
+    /// factor.
+    fn shown_in(&self, axes: &[Axis], scene: &Scene, times: f64) -> Self {
+        let mut shown = self.noted_in(scene);
+        shown.factor = times;
+        let shares = share_index(&self.key).map(|index| other_shares(index, scene));
+        shown.other_shares = shares.map(|shares| shares / times);
+        if let Some((length, symbol)) = scale(&self.key, axes, scene) {
+            shown.factor = times / length;
             symbol.clone_into(&mut shown.symbol);
             shown.unit = String::new();
         }
@@ -90,10 +144,14 @@ impl GridAxis {
 
     /// Label of the axis.
     pub(in crate::plot) fn label(&self) -> String {
+        let remark = match self.is_scaled {
+            true => ", before the factor of each variant",
+            false => "",
+        };
         if self.unit.is_empty() {
-            self.symbol.clone()
+            format!("{}{remark}", self.symbol)
         } else {
-            format!("{} ({})", self.symbol, self.unit)
+            format!("{} ({}){remark}", self.symbol, self.unit)
         }
     }
 
@@ -228,8 +286,8 @@ fn scale(key: &str, axes: &[Axis], scene: &Scene) -> Option<(f64, &'static str)>
 }
 
 /// Of an axis over the share of one of several radii: which of them.
-fn share_index(axis: &Axis) -> Option<usize> {
-    let index = axis.key.strip_prefix("spheres.radius[")?;
+fn share_index(key: &str) -> Option<usize> {
+    let index = key.strip_prefix("spheres.radius[")?;
     index.strip_suffix("].share")?.parse().ok()
 }
 
@@ -241,8 +299,8 @@ fn other_shares(index: usize, scene: &Scene) -> f64 {
 }
 
 /// What an axis over the share of one of several radii is called.
-fn share_of(axis: &Axis, scene: &Scene) -> Option<String> {
-    let index = share_index(axis)?;
+fn share_of(key: &str, scene: &Scene) -> Option<String> {
+    let index = share_index(key)?;
     let shares = scene.spheres.radius.shares();
     let radii: Vec<f64> = shares.iter().map(|share| share.radius * 1e3).collect();
     let radius = numbers::among(*radii.get(index)?, &radii);
@@ -273,6 +331,7 @@ mod tests {
             unit: "rad/s".to_owned(),
             index: 0,
             is_even: false,
+            is_scaled: false,
             words: Vec::new(),
         }
     }

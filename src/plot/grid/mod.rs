@@ -17,6 +17,9 @@ pub(super) struct GridPanel<P = Point> {
     /// Values of the axes it is for, on `columns` and `rows` of the grid.
     pub(super) column: Option<f64>,
     pub(super) row: Option<f64>,
+    /// Its horizontal and its vertical axis, where these are not the grid's: they show values as
+    /// its variant has them.
+    pub(super) own: [Option<GridAxis>; 2],
     /// Its points; cell (x, y) is at `x + y * number of x values`.
     pub(super) cells: Vec<Option<P>>,
 }
@@ -49,7 +52,30 @@ impl PanelGrid {
             panels: Vec::new(),
         };
         grid.fill(table.points());
+        grid.show_variants(&sweep.axes);
         Ok(grid)
+    }
+
+    /// Gives panels of variants axes of their own, where these show values in another way.
+    fn show_variants(&mut self, axes: &[Axis]) {
+        let places: Vec<Option<f64>> = self.panels.iter().map(|it| self.variant(it)).collect();
+        for (index, shared) in [Some(&mut self.x), self.y.as_mut()].into_iter().enumerate() {
+            let Some(shared) = shared else { continue };
+            let of_place = |place: &Option<f64>| shared.of_variant((*place)?, axes);
+            let own: Option<Vec<GridAxis>> = places.iter().map(of_place).collect();
+            let Some([first, others @ ..]) = own.as_deref() else {
+                continue;
+            };
+            // One label serves all panels.
+            let is_one = others.iter().all(|other| other.label() == first.label());
+            if !is_one || others.iter().all(|other| other.is_shown_like(first)) {
+                continue;
+            }
+            *shared = first.clone();
+            for (panel, axis) in self.panels.iter_mut().zip(own.into_iter().flatten()) {
+                panel.own[index] = Some(axis);
+            }
+        }
     }
 
     fn fill(&mut self, points: Vec<Point>) {
@@ -69,6 +95,7 @@ impl PanelGrid {
                         .map(|(axis, value)| axis.at(value)),
                     column,
                     row,
+                    own: [None, None],
                     cells: vec![None; horizontal * vertical],
                 }
             }));
@@ -98,6 +125,18 @@ impl<P> PanelGrid<P> {
         (self.x.values.len(), vertical)
     }
 
+    /// The horizontal and the vertical axis of a panel.
+    pub(super) fn axes<'a>(
+        &'a self,
+        panel: &'a GridPanel<P>,
+    ) -> (&'a GridAxis, Option<&'a GridAxis>) {
+        let [x, y] = &panel.own;
+        (
+            x.as_ref().unwrap_or(&self.x),
+            y.as_ref().or(self.y.as_ref()),
+        )
+    }
+
     /// The place of the variant that a panel stands for, if it stands for one.
     pub(super) fn variant(&self, panel: &GridPanel<P>) -> Option<f64> {
         let axes = [(&self.columns, panel.column), (&self.rows, panel.row)];
@@ -120,6 +159,15 @@ impl<P> PanelGrid<P> {
         rows.flat_map(|axis| axis.values.iter().map(|&value| axis.at(value)))
             .collect()
     }
+}
+
+/// The horizontal axis of all panels together.
+pub(super) fn horizontal(source: &Source<'_>) -> Result<GridAxis, PlotError> {
+    let (sweep, table) = (source.sweep, source.table);
+    check(sweep, table)?;
+    let [x, ..] = places(sweep)?;
+    let index = x.ok_or_else(PlotError::no_axis)?;
+    Ok(GridAxis::new(index, sweep, table))
 }
 
 pub(super) fn check(sweep: &Sweep, table: &LabelTable) -> Result<(), PlotError> {

@@ -6,9 +6,10 @@
 mod view;
 
 use super::axes::Plot;
+use super::canvas::{Drawn, FigureSheet};
 use super::page::{FigurePage, PagePlan, PanelFrame};
 use super::scale::AxisSpan;
-use super::style::{Drawn, FigureSheet, px};
+use super::style::px;
 use super::svg::Svg;
 use super::{Figure, PlotError, palette};
 use crate::record::RunRecord;

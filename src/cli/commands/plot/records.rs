@@ -65,44 +65,35 @@ pub(super) fn draw(
     let names = names(record, arguments)?;
     let beside = first.parent().unwrap_or(Path::new(""));
     let folder = arguments.out.as_deref().unwrap_or(beside);
-    let prefix = match (&arguments.name, &paths) {
-        (Some(name), _) => OsString::from(name),
-        (None, [path]) => path.file_stem().unwrap_or_default().to_owned(),
-        (None, _) => OsString::new(),
-    };
-    let stem = |name: &String| {
-        let mut stem = prefix.clone();
-        stem.push(if stem.is_empty() { "" } else { "-" });
-        stem.push(name);
-        stem
-    };
+    let stem = |name: &String| stem(name, paths, arguments);
     let files = folders::files_of_figures(names.iter().map(stem));
     folders::refuse_foreign(
         folder,
         files,
         "choose another folder with --out or another name with --name",
     )?;
+    let set = RecordSet {
+        records: &records,
+        labels: &arguments.measured.labels,
+        times: arguments.measured.window.times,
+        data: &data,
+    };
     let failed = |error: PlotError| Failure::from(error).at(first);
     let mut missing = None;
     let mut failures = Vec::new();
     for name in &names {
-        let input = RecordSet {
-            records: &records,
-            labels: &arguments.measured.labels,
-            times: arguments.measured.window.times,
-            data: &data,
-        };
-        let written = match plot::draw(name, input) {
+        let image = match plot::draw(name, set) {
             Err(error) if arguments.figure.is_empty() && error.kind() == PlotErrorKind::Nothing => {
                 missing.get_or_insert(error);
                 continue;
             }
-            Err(error) => Err(failed(error)),
-            Ok(image) => folders::make(folder).and_then(|()| {
-                let place = |end: &str| folder.join(stem(name)).with_added_extension(end);
-                write(&image, place, console)
-            }),
+            other => other.map_err(failed),
         };
+        let written = image.and_then(|image| {
+            folders::make(folder)?;
+            let place = |end: &str| folder.join(stem(name)).with_added_extension(end);
+            write(&image, place, console)
+        });
         failures.extend(written.err());
     }
     let nothing_drawn = console.files().is_empty();
@@ -110,6 +101,18 @@ pub(super) fn draw(
         failures.extend(missing.map(failed));
     }
     name_all(failures, nothing_drawn, console)
+}
+
+/// The name of the files of a figure, without their extensions.
+fn stem(name: &str, paths: &[PathBuf], arguments: &Arguments) -> OsString {
+    let mut stem = match (&arguments.name, paths) {
+        (Some(prefix), _) => OsString::from(prefix),
+        (None, [path]) => path.file_stem().unwrap_or_default().to_owned(),
+        (None, _) => OsString::new(),
+    };
+    stem.push(if stem.is_empty() { "" } else { "-" });
+    stem.push(name);
+    stem
 }
 
 /// The figures asked for, or the default ones.

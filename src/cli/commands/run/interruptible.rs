@@ -76,27 +76,39 @@ pub(super) fn run(
     };
     let ending = checkpoints.run(run, &mut control, &mut warn);
     let seconds = progress.finish();
+    match ending {
+        Ending::Finished(record) => Ok(Some(Ran {
+            record: *record,
+            seconds,
+            resumed_from,
+        })),
+        Ending::Lost(error) => Err(Failure::failed(error)),
+        Ending::Interrupted | Ending::EarlierKept => {
+            let frames = scene.time.frames();
+            tell_of_interruption(&ending, (frame, frames), checkpoints, console);
+            Ok(None)
+        }
+    }
+}
+
+/// Says where a run was interrupted, and what continues it.
+fn tell_of_interruption(
+    ending: &Ending,
+    (frame, frames): (u64, u64),
+    checkpoints: &Checkpoints,
+    console: &Console,
+) {
     let path = checkpoints.path().display();
     match ending {
-        Ending::Finished(record) => {
-            return Ok(Some(Ran {
-                record: *record,
-                seconds,
-                resumed_from,
-            }));
-        }
-        Ending::Interrupted => console.note(format_args!(
-            "interrupted at frame {frame} of {}; the same command with --resume continues from \
-             there ({path})",
-            scene.time.frames()
-        )),
         Ending::EarlierKept => console.note(format_args!(
             "interrupted; nothing was stored. The earlier checkpoint is kept: --resume continues \
              from it ({path})"
         )),
-        Ending::Lost(error) => return Err(Failure::failed(error)),
+        _ => console.note(format_args!(
+            "interrupted at frame {frame} of {frames}; the same command with --resume continues \
+             from there ({path})"
+        )),
     }
-    Ok(None)
 }
 
 /// Continues a run from its checkpoint, if requested and present, and says where it begins.

@@ -102,23 +102,7 @@ fn run(
     console: &Console,
 ) -> Result<Run, Failure> {
     let sweep = pool.sweep;
-    let steps = Job::work;
-    let done: u64 = plan.labelled().map(steps).sum();
-    let planned = done + plan.pending().map(steps).sum::<u64>();
-    let jobs = part.jobs.unwrap_or(plan.own());
-    // Jobs that are not planned yet take as much work as the others do on average.
-    let scale = jobs as f64 / plan.own().max(1) as f64;
-    let progress = Progress::new(
-        console,
-        Work {
-            jobs,
-            jobs_done: plan.labelled().count(),
-            steps: (planned as f64 * scale) as u64,
-            steps_done: done,
-            unit: model_of(&sweep.scene).work_unit(),
-            head: part.head,
-        },
-    );
+    let progress = Progress::new(console, work_of(plan, part, sweep));
     let name = |job: &Job| describe(&sweep.axes, &job.values, job.seed);
     let unstable = Mutex::new(HashMap::new());
     let note_unstable = |job: &Job, outcome: &Outcome| {
@@ -161,6 +145,24 @@ fn run(
     })
 }
 
+/// The work of a plan, or of the whole that it is part of.
+fn work_of(plan: &Plan, part: Part, sweep: &Sweep) -> Work {
+    let steps = Job::work;
+    let done: u64 = plan.labelled().map(steps).sum();
+    let planned = done + plan.pending().map(steps).sum::<u64>();
+    let jobs = part.jobs.unwrap_or(plan.own());
+    // Jobs that are not planned yet take as much work as the others do on average.
+    let scale = jobs as f64 / plan.own().max(1) as f64;
+    Work {
+        jobs,
+        jobs_done: plan.labelled().count(),
+        steps: (planned as f64 * scale) as u64,
+        steps_done: done,
+        unit: model_of(&sweep.scene).work_unit(),
+        head: part.head,
+    }
+}
+
 impl Run {
     /// Says what is left to other shards, if anything is.
     pub(super) fn is_left_to_others(&self, console: &Console) -> bool {
@@ -186,6 +188,30 @@ impl Run {
         sweep: &Sweep,
         console: &Console,
     ) -> Result<(), Failure> {
+        console.result(self.summary(plan, sweep));
+        let names = |jobs: &[JobFailure]| -> Vec<String> {
+            let named = |job: &JobFailure| {
+                let name = describe(&sweep.axes, &job.values, job.seed);
+                format!("{name} (job {}): {}", job.id, job.reason)
+            };
+            jobs.iter().map(named).collect()
+        };
+        name_first(&names(&self.unstable), |name| {
+            console.note(format_args!("unstable: {name}"));
+        });
+        name_first(&names(&self.report.failures), |name| {
+            console.error(format_args!("failed: {name}"));
+        });
+        if let Some(error) = &self.report.unnoted {
+            console.error(format_args!(
+                "the table of failed jobs could not be written: {error}"
+            ));
+        }
+        Ok(())
+    }
+
+    /// How much was done, how fast, and what is left.
+    fn summary(&self, plan: &Plan, sweep: &Sweep) -> String {
         let Report {
             finished,
             resumed,
@@ -222,26 +248,7 @@ impl Run {
                 format::work(*work as f64 / cpu_seconds.max(1e-9), unit),
             );
         }
-        console.result(text);
-        let names = |jobs: &[JobFailure]| -> Vec<String> {
-            let named = |job: &JobFailure| {
-                let name = describe(&sweep.axes, &job.values, job.seed);
-                format!("{name} (job {}): {}", job.id, job.reason)
-            };
-            jobs.iter().map(named).collect()
-        };
-        name_first(&names(&self.unstable), |name| {
-            console.note(format_args!("unstable: {name}"));
-        });
-        name_first(&names(failures), |name| {
-            console.error(format_args!("failed: {name}"));
-        });
-        if let Some(error) = &self.report.unnoted {
-            console.error(format_args!(
-                "the table of failed jobs could not be written: {error}"
-            ));
-        }
-        Ok(())
+        text
     }
 }
 
