@@ -70,6 +70,15 @@ pub(crate) fn percent(part: usize, whole: usize) -> String {
     format!("{:.0} %", 100.0 * part as f64 / whole.max(1) as f64)
 }
 
+/// Processor time (s) in core-hours, with the digits that count.
+pub(crate) fn core_hours(seconds: f64) -> String {
+    match seconds / 3600.0 {
+        hours if hours >= 9.95 => format!("{hours:.0} core-hours"),
+        hours if hours >= 0.1 => format!("{hours:.1} core-hours"),
+        hours => format!("{hours:.3} core-hours"),
+    }
+}
+
 /// A number of things: `1 job`, `2 jobs`.
 pub(crate) fn count(number: usize, thing: &str) -> String {
     let plural = match number {

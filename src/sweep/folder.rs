@@ -222,6 +222,11 @@ impl Folder {
     /// # Errors
     /// If there is such a folder, but it cannot be read.
     pub fn recorded(&self) -> Result<HashSet<String>, FolderError> {
+        self.files_of_runs(".h5")
+    }
+
+    /// Identities of the runs that have a file with this end of its name beside the records.
+    pub(super) fn files_of_runs(&self, end: &str) -> Result<HashSet<String>, FolderError> {
         let path = self.records();
         let io_error = |source| FolderError::Io {
             path: path.clone(),
@@ -235,7 +240,7 @@ impl Folder {
         let mut ids = HashSet::new();
         for entry in entries {
             let name = entry.map_err(io_error)?.file_name();
-            let id = name.to_str().and_then(|name| name.strip_suffix(".h5"));
+            let id = name.to_str().and_then(|name| name.strip_suffix(end));
             ids.extend(id.map(str::to_owned));
         }
         Ok(ids)

@@ -33,6 +33,8 @@ pub enum Standing {
     Foreign(ForeignRecord),
     /// The job belongs to another shard: its record was not looked for.
     OfOtherShard,
+    /// A record that was not looked into, because enough others were.
+    Unread,
 }
 
 /// Why there is no plan.
@@ -121,6 +123,42 @@ impl Plan {
         })
     }
 
+    /// Looks at `most` records at most, spread evenly over the jobs that have one: it takes about
+    /// as long for any number of jobs.
+    ///
+    /// # Errors
+    /// Those of [`new`](Self::new).
+    pub fn sampled(
+        folder: &Folder,
+        jobs: Vec<Job>,
+        most: usize,
+        workers: usize,
+    ) -> Result<Self, PlanError> {
+        let jobs = each_once(jobs);
+        let there = folder.recorded()?;
+        let places = (0..jobs.len()).filter(|&place| there.contains(&jobs[place].id));
+        let places: Vec<usize> = places.collect();
+        let mut jobs: Vec<(Job, Standing)> = jobs
+            .into_iter()
+            .map(|job| (job, Standing::Missing))
+            .collect();
+        for &place in &places {
+            jobs[place].1 = Standing::Unread;
+        }
+        let chosen = places
+            .iter()
+            .step_by(places.len().div_ceil(most.max(1)).max(1));
+        let chosen: Vec<usize> = chosen.copied().collect();
+        let standings = work::map(workers, &chosen, |&place| {
+            let job = &jobs[place].0;
+            standing(job, &folder.record(&job.id))
+        })?;
+        for (place, standing) in chosen.into_iter().zip(standings) {
+            jobs[place].1 = standing;
+        }
+        Ok(Self { jobs })
+    }
+
     /// The plan of running everything again, whatever the folder holds.
     pub fn afresh(jobs: Vec<Job>) -> Self {
         let jobs = each_once(jobs).into_iter();
@@ -182,7 +220,7 @@ impl Plan {
         let pending = |standing: &Standing| {
             !matches!(
                 standing,
-                Standing::Done(_) | Standing::Labelled | Standing::OfOtherShard
+                Standing::Done(_) | Standing::Labelled | Standing::OfOtherShard | Standing::Unread
             )
         };
         self.jobs

@@ -1,6 +1,6 @@
 //! How far the sweep of a results folder is.
 
-use super::{Failure, Folder, FolderError, Job, Plan, Standing, read_failures};
+use super::{Done, Failure, Folder, FolderError, Job, Plan, Standing, read_failures};
 use crate::grid::Axis;
 use crate::record::Outcome;
 use crate::run;
@@ -22,6 +22,8 @@ pub struct Status {
     pub failures: Vec<Failure>,
     /// Jobs left whose record is damaged, or holds another scene or other output.
     pub bad: usize,
+    /// Number of records that these numbers are estimated from, if not all were read.
+    pub sample: Option<usize>,
     /// Jobs left to run: with those done and failed, these are all.
     pub left: usize,
     /// Of these, runs with a checkpoint that they go on from.
@@ -89,6 +91,14 @@ pub struct UnderWay {
 }
 
 impl UnderWay {
+    /// All of a plan, from one look at the folder.
+    fn all(folder: &Folder, plan: &Plan) -> Result<Vec<Self>, FolderError> {
+        let with_checkpoint = folder.files_of_runs(".checkpoint")?;
+        let jobs = plan.pending();
+        let jobs = jobs.filter(|job| with_checkpoint.contains(&job.id));
+        Ok(jobs.filter_map(|job| Self::of(folder, job)).collect())
+    }
+
     /// The checkpoint of a job, if there is one from which this build can go on.
     fn of(folder: &Folder, job: &Job) -> Option<Self> {
         let checkpoints = folder.checkpoints(&job.id, Duration::ZERO);
@@ -104,44 +114,48 @@ impl UnderWay {
 }
 
 impl Status {
-    /// The status of the jobs of a sweep with these axes, as planned for `folder`.
+    /// The status of the jobs of a sweep with these axes, as planned for `folder`. Of records that
+    /// the plan did not look into, what the others show is taken as their average.
     ///
     /// # Errors
-    /// If the table of failed jobs cannot be read.
+    /// If the folder or the table of failed jobs cannot be read.
     pub fn of(folder: &Folder, axes: &[Axis], plan: &Plan) -> Result<Self, FolderError> {
         let left_ids: HashSet<_> = plan.pending().map(|job| &job.id).collect();
         let mut failures = read_failures(axes, &folder.failures())?;
         failures.retain(|failure| left_ids.contains(&failure.id));
         let failed: HashSet<_> = failures.iter().map(|failure| failure.id.clone()).collect();
-        let is_bad = |standing: &Standing| {
-            !matches!(
+        let is_bad = |(job, standing): &&(Job, Standing)| {
+            let is_good = matches!(
                 standing,
-                Standing::Done(_) | Standing::Labelled | Standing::Missing
-            )
+                Standing::Done(_) | Standing::Labelled | Standing::Missing | Standing::Unread
+            );
+            !is_good && !failed.contains(&job.id)
         };
-        let is_unstable = |outcome: &Outcome| matches!(outcome, Outcome::Unstable(_));
+        let is_unstable = |done: &&Done| matches!(done.outcome, Outcome::Unstable(_));
+        let bad = plan.jobs.iter().filter(is_bad).count();
+        let good = plan.done().count();
+        let unread = plan.jobs.iter();
+        let unread = unread.filter(|it| it.1 == Standing::Unread).count();
+        let read = good + bad;
+        // Of those that were not read as many in a hundred as of those that were.
+        let of_all = |number: usize| {
+            let more = unread as f64 * number as f64 / read.max(1) as f64;
+            number + more.round() as usize
+        };
+        let claimed = Claimed::all(folder);
         Ok(Self {
             jobs: plan.jobs.len(),
-            done: plan.done().count(),
-            unstable: plan
-                .done()
-                .filter(|(_, done)| is_unstable(&done.outcome))
-                .count(),
-            bad: plan
-                .jobs
-                .iter()
-                .filter(|(job, standing)| is_bad(standing) && !failed.contains(&job.id))
-                .count(),
-            left: left_ids.len() - failures.len(),
-            under_way: plan
-                .pending()
-                .filter_map(|job| UnderWay::of(folder, job))
-                .collect(),
+            done: of_all(good),
+            unstable: of_all(plan.done().map(|it| it.1).filter(is_unstable).count()),
+            bad: of_all(bad),
+            sample: (unread > 0).then_some(read),
+            left: left_ids.len() - failures.len() + of_all(bad) - bad,
+            under_way: UnderWay::all(folder, plan)?,
             cpu_seconds_left: cpu_seconds_left(plan),
             cpu_seconds_per_job: cpu_seconds_per_job(plan),
             failures,
             processes: folder.at_work()?,
-            claimed: Claimed::all(folder),
+            claimed,
         })
     }
 }

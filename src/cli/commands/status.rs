@@ -40,13 +40,16 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     Ok(exit)
 }
 
+/// Most records that are read: of more, these stand for all.
+const MOST_RECORDS: usize = 1000;
+
 impl FolderAnswer {
     /// Reads the progress of a folder and prints it.
     fn of(folder: &Folder, workers: usize, console: &Console) -> Result<Self, Failure> {
         let sweep = folder.read_sweep()?;
         let refining = folder.read_refining(&sweep)?;
         let jobs = sweep.jobs_so_far(refining.as_ref())?;
-        let plan = Plan::new(folder, jobs, work::default_workers())?;
+        let plan = Plan::sampled(folder, jobs, MOST_RECORDS, work::default_workers())?;
         let status = Status::of(folder, &sweep.axes, &plan)?;
         console.result(format_args!(
             "{}: {}",
@@ -63,6 +66,11 @@ impl FolderAnswer {
             unstable: status.unstable,
             failed: NamedJob::all(&sweep.axes, &status.failures),
             to_redo: status.bad,
+            sample: status.sample,
+            core_hours_spent: status
+                .cpu_seconds_per_job
+                .map(|it| it * status.done as f64 / 3600.0),
+            core_hours_left: status.cpu_seconds_left.map(|it| it / 3600.0),
             left: status.left,
             under_way: UnderWayAnswer::all(&status.under_way, &sweep.axes),
             workers: workers.min(status.left.max(1)),
@@ -132,6 +140,10 @@ struct FolderAnswer {
     unstable: usize,
     failed: Vec<NamedJob>,
     to_redo: usize,
+    /// Number of records that were read, if not all.
+    sample: Option<usize>,
+    core_hours_spent: Option<f64>,
+    core_hours_left: Option<f64>,
     left: usize,
     under_way: Vec<UnderWayAnswer>,
     workers: usize,
@@ -203,6 +215,7 @@ fn text(status: &Status, axes: &[Axis], workers: usize) -> String {
         unstable,
         failures,
         bad,
+        sample,
         left,
         under_way,
         processes,
@@ -214,6 +227,12 @@ fn text(status: &Status, axes: &[Axis], workers: usize) -> String {
         format::count(*jobs, "job"),
         failures.len()
     );
+    if let Some(sample) = sample {
+        text += &format!(
+            "\n  judged by  {}, not by all",
+            format::count(*sample, "record")
+        );
+    }
     if *unstable > 0 {
         text += &format!("\n  unstable   {unstable} of the done jobs");
     }
@@ -233,6 +252,13 @@ fn text(status: &Status, axes: &[Axis], workers: usize) -> String {
             None => "unknown until a job is done; `phase check` forecasts it".to_owned(),
         };
         text += &format!("\n  time left  {time}");
+    }
+    if let (Some(job), Some(left)) = (status.cpu_seconds_per_job, status.cpu_seconds_left) {
+        text += &format!(
+            "\n  spent      {}, {} left",
+            format::core_hours(job * *done as f64),
+            format::core_hours(left)
+        );
     }
     text += &describe_running(processes, claimed);
     for run in under_way {

@@ -117,9 +117,9 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         console.file(file);
     }
     console.result(format_args!(
-        "{} missing, about {} core-hours, in {} of {}",
+        "{} missing, about {}, in {} of {}",
         format::count(order.next.missing.len(), "run"),
-        order.core_hours(),
+        format::core_hours(order.seconds),
         format::count(submission.tasks, "task"),
         format::count(arguments.jobs, "core"),
     ));
@@ -204,15 +204,6 @@ impl<'a> Order<'a> {
             arguments,
             next,
         })
-    }
-
-    /// Processor time of what is missing (hours), for people.
-    fn core_hours(&self) -> String {
-        match self.seconds / 3600.0 {
-            hours if hours >= 9.95 => format!("{hours:.0}"),
-            hours if hours >= 0.1 => format!("{hours:.1}"),
-            hours => format!("{hours:.3}"),
-        }
     }
 
     /// Number of tasks of the whole sweep, of which there may be so many.

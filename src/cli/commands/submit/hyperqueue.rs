@@ -2,6 +2,7 @@
 
 use super::{Order, Submission};
 use crate::cli::exit::Failure;
+use crate::cli::format;
 
 pub(super) fn write(order: &Order<'_>) -> Result<Submission, Failure> {
     let Order {
@@ -19,11 +20,11 @@ pub(super) fn write(order: &Order<'_>) -> Result<Submission, Failure> {
     let lines = order.lines();
     let quoted = |text: &str| toml::Value::String(text.to_owned()).to_string();
     let mut text = format!(
-        "# {} runs that are missing, about {} core-hours. `phase submit` writes this file again.\n\
+        "# {} runs that are missing, about {}. `phase submit` writes this file again.\n\
          name = {}\n\
          stream = {}\n",
         order.next.missing.len(),
-        order.core_hours(),
+        format::core_hours(order.seconds),
         quoted(&format!("phase-{name}")),
         quoted(&logs.display().to_string())
     );

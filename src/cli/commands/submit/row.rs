@@ -2,6 +2,7 @@
 
 use super::{Order, Submission, cannot_write, clock};
 use crate::cli::exit::Failure;
+use crate::cli::format;
 use std::fs;
 
 pub(super) fn write(order: &Order<'_>) -> Result<Submission, Failure> {
@@ -29,12 +30,12 @@ pub(super) fn write(order: &Order<'_>) -> Result<Submission, Failure> {
          mv {shards}/{{directory}}/answer.json {shards}/{{directory}}/done.json"
     );
     let text = format!(
-        "# {} runs that are missing, about {} core-hours. `phase submit` writes this file again.\n\
+        "# {} runs that are missing, about {}. `phase submit` writes this file again.\n\
          [workspace]\npath = \"shards\"\n\n\
          [[action]]\nname = \"sweep\"\nproducts = [\"done.json\"]\ncommand = {}\n\n\
          [action.resources]\nthreads_per_process = {cores}\nwalltime.per_directory = \"{}\"\n",
         order.next.missing.len(),
-        order.core_hours(),
+        format::core_hours(order.seconds),
         toml::Value::String(format!("({command})")),
         clock(arguments.time)
     );

@@ -2,6 +2,7 @@
 
 use super::{Order, Submission, clock};
 use crate::cli::exit::Failure;
+use crate::cli::format;
 use phase::sweep::Shard;
 use std::collections::BTreeSet;
 use std::process::Command;
@@ -25,7 +26,7 @@ pub(super) fn write(order: &Order<'_>) -> Result<Submission, Failure> {
     let (cores, time) = (arguments.jobs, clock(arguments.time));
     let log = order.place.join("%A.log");
     let (array, log) = (ranges(&shards), log.display());
-    let (runs, hours) = (order.next.missing.len(), order.core_hours());
+    let (runs, hours) = (order.next.missing.len(), format::core_hours(order.seconds));
     let text = format!(
         "#!/bin/bash\n\
          #SBATCH --job-name=phase-{name}\n\
@@ -37,7 +38,7 @@ pub(super) fn write(order: &Order<'_>) -> Result<Submission, Failure> {
          #SBATCH --open-mode=append\n\
          #SBATCH --output={log}\n\
          \n\
-         # {runs} runs that are missing, about {hours} core-hours. Each task makes a shard of\n\
+         # {runs} runs that are missing, about {hours}. Each task makes a shard of\n\
          # them. `phase submit` writes this file again.\n\
          cd {here} || exit\n\
          \n\

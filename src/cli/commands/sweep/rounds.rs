@@ -277,7 +277,8 @@ pub(super) fn tell_of_plan(plan: &Plan, console: &Console) {
             | Standing::Done(_)
             | Standing::Labelled
             | Standing::Foreign(_)
-            | Standing::OfOtherShard => {}
+            | Standing::OfOtherShard
+            | Standing::Unread => {}
         }
     }
 }
