@@ -23,6 +23,7 @@ mod formats;
 mod limits;
 mod loss;
 mod made_up;
+mod measures;
 mod model;
 mod names;
 mod packing_fraction;
