@@ -72,11 +72,7 @@ impl<'a> PointScenes<'a> {
     pub(crate) fn unchecked(&mut self, values: &[f64]) -> Result<Scene, PointError> {
         let pairs = || self.axes.iter().zip(values);
         let variant = pairs().find_map(|(axis, &value)| Some((axis.variant(value)?, value)));
-        let factor = |axis: &Axis| {
-            let scale = variant.into_iter().flat_map(|(it, _)| &it.scale);
-            let own = scale.filter(|(name, _)| *name == axis.name);
-            own.map(|(_, factor)| factor).product::<f64>()
-        };
+        let factor = |axis: &Axis| variant.map_or(1.0, |(it, _)| it.factor_on(axis));
         let numbers = pairs().filter(|(axis, _)| !axis.is_of_variants());
         let numbers: Vec<f64> = numbers.map(|(axis, value)| factor(axis) * value).collect();
         let template = variant.map_or(0, |(_, place)| place as usize);

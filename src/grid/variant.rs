@@ -27,6 +27,14 @@ pub struct Variant {
     pub scene: Scene,
 }
 
+impl Variant {
+    /// The factor on the values of another axis.
+    pub(crate) fn factor_on(&self, axis: &Axis) -> f64 {
+        let own = self.scale.iter().filter(|(name, _)| *name == axis.name);
+        own.map(|(_, factor)| factor).product()
+    }
+}
+
 /// A named setting of several keys, as files write it.
 #[derive(Deserialize, JsonSchema)]
 pub(crate) struct VariantEntry {

@@ -94,6 +94,10 @@ fn jobs_to_label(folder: &Folder, sweep: &Sweep) -> Result<Vec<Job>, Failure> {
 /// as in results that were published, the labels are kept.
 fn sweep_with_records(folder: &Folder) -> Result<Sweep, Undone> {
     let sweep = folder.read_sweep()?;
+    if sweep.study.is_some() {
+        let message = "this folder holds the results of a study, which has its labels in runs.csv";
+        return Err(Undone::Kept(Failure::refused(message).at(folder.root())));
+    }
     match refuse_to_lose_labels(folder, []) {
         Ok(()) => Ok(sweep),
         Err(error @ LabellingError::Lost { rows, lost, .. }) if rows == lost => {
