@@ -161,6 +161,7 @@ mod tests {
             axes: axes.iter().map(axis).collect(),
             seeds: vec![1],
             refine: None,
+            study: None,
             sieves: Sieves::default(),
             plot: PlotSettings::default(),
         };

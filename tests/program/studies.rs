@@ -210,10 +210,10 @@ fn a_study_that_there_is_not_is_one_error() {
         place.write("foo.toml", &text.replace("NAME", "foo"));
         let answer = place.phase(&[command, "foo.toml"]).code(2);
         let answer = answer
-            .complains("foo.toml:2:9: there is no study \"foo\"")
+            .complains("error: there is no study \"foo\"\n --> foo.toml:2:9")
             .complains("choose one of \"stability\", \"accuracy\", \"ablation\"");
         assert_eq!(
-            answer.stderr.matches("foo.toml:").count(),
+            answer.stderr.matches("error").count(),
             1,
             "{}",
             answer.stderr

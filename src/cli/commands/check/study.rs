@@ -41,8 +41,9 @@ pub(super) fn main(
     console.result(line("spheres", scene.spheres.count));
     console.result(line("effects", effects(scene).join(", ")));
     let settings = SettingAnswer::all(comparison);
+    let reference = matches!(study, AnyStudy::Accuracy(_)).then_some(comparison.reference);
     for (place, setting) in settings.iter().enumerate() {
-        console.result(line("setting", setting.line(place == comparison.reference)));
+        console.result(line("setting", setting.line(Some(place) == reference)));
     }
     let skipped = match study {
         AnyStudy::Ablation(study) => &study.skipped[..],
