@@ -92,12 +92,11 @@ impl Plan {
         }
     }
 
-    /// The same plan with jobs that have a label without a record, whatever the folder holds of
-    /// them.
+    /// The same plan with jobs that have a label, so that they need no good record.
     #[must_use]
     pub fn with_labels(mut self, is_labelled: impl Fn(&Job) -> bool) -> Self {
         for (job, standing) in &mut self.jobs {
-            if is_labelled(job) {
+            if !matches!(standing, Standing::Done(_)) && is_labelled(job) {
                 *standing = Standing::Labelled;
             }
         }

@@ -7,7 +7,7 @@ mod edited;
 use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::folders::{self, Entry, Undone};
-use crate::cli::labels::{Summary, cannot_label, cannot_write, label_folder};
+use crate::cli::labels::{OF_STUDY, Summary, cannot_label, cannot_write, label_folder};
 use crate::cli::options::Workers;
 use phase::sweep::{Folder, Job, LabellingError, Sweep, refuse_to_lose_labels};
 use serde::Serialize;
@@ -95,8 +95,7 @@ fn jobs_to_label(folder: &Folder, sweep: &Sweep) -> Result<Vec<Job>, Failure> {
 fn sweep_with_records(folder: &Folder) -> Result<Sweep, Undone> {
     let sweep = folder.read_sweep()?;
     if sweep.study.is_some() {
-        let message = "this folder holds the results of a study, which has its labels in runs.csv";
-        return Err(Undone::Kept(Failure::refused(message).at(folder.root())));
+        return Err(Undone::Kept(Failure::refused(OF_STUDY).at(folder.root())));
     }
     match refuse_to_lose_labels(folder, []) {
         Ok(()) => Ok(sweep),

@@ -35,8 +35,8 @@ be; which effects decide the published diagram?
   phase study sweeps/theoretical-9x9.toml --ablate --seeds 5
 
 The results folder holds sweep.json (the settings as the variants of a sweep), records/ (one HDF5
-file per run), runs.csv (one row per run), runs.makers.csv (which build made each row), a table of
-settings if the study has one, a file of JSON with all that was found, and figures as SVG and PNG.
+file per run), runs.csv (one row per run), a table of settings if the study has one, a file of JSON
+with all that was found, and figures as SVG and PNG.
 Several processes may make the runs of one study in one folder.")]
 pub(crate) struct Arguments {
     /// The study file (TOML); with --ablate a scene or sweep file.

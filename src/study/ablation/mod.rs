@@ -232,11 +232,11 @@ impl Ablation {
     }
 
     /// The same with each pair of those that matter: both at once. The sentence of its finding
-    /// stays that about single effects.
+    /// stays that about single effects. None if there is no pair.
     ///
     /// # Errors
     /// If a pair cannot be run at a point.
-    pub fn with_pairs(&self, rows: &[Option<RunRow>]) -> Result<Self, AblationError> {
+    pub fn with_pairs(&self, rows: &[Option<RunRow>]) -> Result<Option<Self>, AblationError> {
         let ablated = self.evaluate(rows);
         let of_singles = Some(self.finding(&ablated));
         let mut matter: Vec<&Ablated> = ablated
@@ -267,6 +267,9 @@ impl Ablation {
                 }
             }
         }
+        if pairs.is_empty() {
+            return Ok(None);
+        }
         let mut both = Self::new(
             self.base.clone(),
             singles.into_iter().chain(pairs).collect(),
@@ -276,7 +279,7 @@ impl Ablation {
         both.skipped.extend(self.skipped.clone());
         both.skipped.sort_by(|one, other| one.name.cmp(&other.name));
         both.skipped.dedup();
-        Ok(both)
+        Ok(Some(both))
     }
 
     /// What is not tried and why, behind a semicolon; empty if there is nothing.

@@ -4,20 +4,15 @@
 //! names (empty where one is undefined), `sphere_steps`, `force_evaluations`, `cpu_seconds`,
 //! `measured` (which thresholds or times the row was measured with), `id`. A run that several
 //! settings share has a row for each.
-//!
-//! `runs.makers.csv` beside it: which build made each row, in the columns `id`, `version` and
-//! `commit`. It is a file of its own because the same study gives the same table, whatever build
-//! makes it.
 
 use super::{Comparison, Measured, Measurement, Quantity};
 use crate::classify::{FAMILIES, Label, NUMERICS};
 use crate::document::text;
 use crate::grid::Axis;
-use crate::record::{Program, RunRecord};
+use crate::record::RunRecord;
 use crate::store::{StoreError, write_atomic};
 use crate::sweep::{Folder, Job, Plan, work};
-use std::collections::{BTreeMap, HashMap, HashSet};
-use std::path::{Path, PathBuf};
+use std::collections::{HashMap, HashSet};
 
 /// What was measured of one run, and what it cost.
 #[derive(Clone, Debug, PartialEq)]
@@ -64,8 +59,6 @@ pub struct RunTable {
     pub rows: Vec<Option<RunRow>>,
     /// Lines of other settings or seeds, which a later study may want again.
     pub others: Vec<csv::StringRecord>,
-    /// Which builds made them all, by identities, as far as that was noted.
-    makers: BTreeMap<String, Program>,
 }
 
 /// Why there is no table.
@@ -112,7 +105,6 @@ impl RunTable {
                           or a table of something else; move it away, or write it anew with --force";
             return Err(StoreError::text(path, 1, reason));
         }
-        table.makers = read_makers(path)?;
         let measured = comparison.measurement.digest();
         let ids = comparison.jobs.iter().map(|job| job.id.as_str());
         let places: HashMap<&str, usize> = ids.enumerate().map(|(at, id)| (id, at)).collect();
@@ -133,23 +125,7 @@ impl RunTable {
                 None => table.others.push(line),
             }
         }
-        table.keep_makers();
         Ok(table)
-    }
-
-    /// Forgets the builds of runs that have no row.
-    fn keep_makers(&mut self) {
-        let rows = self.rows.iter().flatten().map(|row| row.id.as_str());
-        let others = self.others.iter();
-        let others = others.filter_map(|line| line.iter().next_back());
-        let known: HashSet<&str> = rows.chain(others).collect();
-        self.makers.retain(|id, _| known.contains(id.as_str()));
-    }
-
-    /// The builds that made the rows; none of one of which that is not noted.
-    pub fn makers(&self) -> impl Iterator<Item = Option<&Program>> {
-        let rows = self.rows.iter().flatten();
-        rows.map(|row| self.makers.get(&row.id))
     }
 
     /// The plan of a folder in which jobs that have a row are done.
@@ -175,16 +151,11 @@ impl RunTable {
         let quantities = comparison.quantities().len();
         let measured = work::map(workers, &missing, |(_, job)| {
             let record = folder.read_record_of(job)?;
-            Ok::<_, StoreError>(record.map(|record| {
-                let row = RunRow::of(job, &record, &comparison.measurement, quantities);
-                (row, record.program)
-            }))
+            let row = record.map(|it| RunRow::of(job, &it, &comparison.measurement, quantities));
+            Ok::<_, StoreError>(row)
         })?;
-        for ((place, job), measured) in missing.into_iter().zip(measured) {
-            if let Some((row, maker)) = measured? {
-                self.makers.insert(job.id.clone(), maker);
-                self.rows[place] = Some(row);
-            }
+        for ((place, _), row) in missing.into_iter().zip(measured) {
+            self.rows[place] = row?;
         }
         Ok(())
     }
@@ -216,8 +187,6 @@ impl RunTable {
         }
         let bytes = table.into_inner();
         let bytes = bytes.map_err(|error| StoreError::content(path, error))?;
-        // First, so that no row has another maker than is noted, whenever the process is ended.
-        write_makers(&self.makers, path)?;
         write_atomic(path, &bytes)
     }
 }
@@ -268,43 +237,4 @@ fn parse(line: &csv::StringRecord, axes: usize, quantities: usize) -> Option<(Ru
         cpu_seconds: cpu_seconds.parse().ok()?,
     };
     Some((row, (*how).to_owned()))
-}
-
-/// The builds that made the rows of a table are noted in this file.
-fn makers_of(table: &Path) -> PathBuf {
-    table.with_extension("makers.csv")
-}
-
-/// Notes which builds made the rows of a table, by the identities of their runs.
-///
-/// # Errors
-/// If the file cannot be written.
-fn write_makers(makers: &BTreeMap<String, Program>, table: &Path) -> Result<(), StoreError> {
-    let path = makers_of(table);
-    let rows = makers.iter();
-    let rows = rows.map(|(id, by)| [id.as_str(), &by.version, &by.commit]);
-    let mut bytes = csv::Writer::from_writer(Vec::new());
-    let fail = |error: csv::Error| StoreError::content(&path, error);
-    for row in std::iter::once(["id", "version", "commit"]).chain(rows) {
-        bytes.write_record(row).map_err(fail)?;
-    }
-    let bytes = bytes
-        .into_inner()
-        .map_err(|error| StoreError::content(&path, error))?;
-    write_atomic(&path, &bytes)
-}
-
-/// Reads which builds made the rows of a table, as far as that was noted.
-fn read_makers(table: &Path) -> Result<BTreeMap<String, Program>, StoreError> {
-    let path = makers_of(table);
-    if !path.exists() {
-        return Ok(BTreeMap::new());
-    }
-    let fail = |error: csv::Error| StoreError::reading(&path, error.into());
-    let mut rows = csv::Reader::from_path(&path).map_err(fail)?;
-    let maker = |row: Result<(String, String, String), csv::Error>| {
-        let (id, version, commit) = row.map_err(fail)?;
-        Ok((id, Program { version, commit }))
-    };
-    rows.deserialize().map(maker).collect()
 }

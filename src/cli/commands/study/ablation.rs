@@ -29,7 +29,7 @@ impl Study for Ablation {
     }
 
     fn extended(&self, rows: &[Option<RunRow>]) -> Result<Option<Self>, Failure> {
-        Ok(Some(self.with_pairs(rows)?))
+        Ok(self.with_pairs(rows)?)
     }
 
     fn conclude(&self, rows: &[Option<RunRow>]) -> Result<Conclusion, Failure> {

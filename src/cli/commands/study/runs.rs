@@ -9,7 +9,7 @@ use crate::cli::{builds, folders, forecast, format, interrupt};
 use phase::resume::DEFAULT_INTERVAL;
 use phase::study::StudyName;
 use phase::study::comparison::{Comparison, RunTable};
-use phase::sweep::{Access, Folder, Job, Plan};
+use phase::sweep::{Access, Folder, Job, Plan, Standing};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -41,7 +41,7 @@ impl Place {
         };
         let folder = Folder::new(arguments.out.clone().unwrap_or_else(by_default));
         let root = folder.root();
-        let tables = ["runs", "runs.makers", "failed", name].map(|it| format!("{it}.csv"));
+        let tables = ["runs", "failed", name].map(|it| format!("{it}.csv"));
         let files = ["sweep.json".to_owned(), format!("{name}.json")];
         let files = files.into_iter().chain(tables).map(PathBuf::from);
         let figures = figures.iter().filter(|_| !arguments.no_plot);
@@ -93,8 +93,10 @@ impl Place {
             force: arguments.force,
             console,
         };
-        builds::tell_of_others("row", table.makers(), console);
         let plan = table.applied_to(rounds.plan(comparison.jobs.clone())?);
+        let is_row_alone = |it: &&(Job, Standing)| it.1 == Standing::Labelled;
+        let rows_alone = plan.jobs.iter().filter(is_row_alone).map(|_| None);
+        builds::tell_of_others("row", rows_alone, console);
         warn_of_days(comparison, &plan, workers, console);
         let run = rounds.run(&comparison.sweep, &plan)?;
         table.add_records(comparison, &self.folder, workers)?;
