@@ -1,6 +1,6 @@
 //! Ablations: each effect taken away, and whether the scene needs it.
 
-use crate::support::Workplace;
+use crate::support::{Workplace, end};
 use serde_json::Value;
 
 /// Eight spheres fall on a floor. The damping of their impacts decides how fast they are at the end;
@@ -116,6 +116,42 @@ fn runs_of_pairs_and_of_other_seeds_are_kept() {
     assert_eq!(run("6")["run_now"], 0);
     run("3");
     assert_eq!(run("6")["run_now"], 0);
+}
+
+/// Which pairs there are follows from the first runs, for each process alike.
+#[test]
+fn processes_share_an_ablation_with_pairs() {
+    let place = Workplace::new();
+    // Turning air makes friction matter, too.
+    let air = "[drag]\nlaw = \"cross-section\"\nlinear = 30.0\n[swirl]\nomega = 20.0\n[tank]";
+    place.write("scene.toml", &SCENE.replace("[tank]", air));
+    let command = [
+        "study",
+        "scene.toml",
+        "--ablate",
+        "--seeds",
+        "8",
+        "--no-plot",
+        "--json",
+        "-j",
+        "1",
+    ];
+    let children: Vec<_> = (0..2).map(|_| place.start(&command)).collect();
+    let answers = children.into_iter().map(|child| {
+        let answer = end(child);
+        assert_eq!(answer.code, Some(0), "{}{}", answer.stdout, answer.stderr);
+        serde_json::from_str(&answer.stdout).unwrap()
+    });
+    let answers: Vec<Value> = answers.collect();
+    let [one, other] = &answers[..] else {
+        panic!("{answers:?}")
+    };
+    assert_eq!(one["finding"], other["finding"]);
+    let made = |answer: &Value| answer["run_now"].as_u64().unwrap();
+    assert_eq!(made(one) + made(other), one["runs"].as_u64().unwrap());
+    let names = one["finding"]["ablated"].as_array().unwrap().iter();
+    let mut names = names.map(|it| it["name"].as_str().unwrap());
+    assert!(names.any(|name| name.contains(" and ")), "{one:#}");
 }
 
 #[test]

@@ -32,11 +32,11 @@ pub(super) fn main(
     };
     let (sweep, scene) = (&comparison.sweep, &comparison.sweep.scene);
     let title = title.or(sweep.title.as_ref()).or(scene.title.as_ref());
-    let runs = format!(
-        "a study of {}, {}",
-        study.name().name(),
-        describe_runs(comparison)
-    );
+    let kind = match study {
+        AnyStudy::Ablation(_) => "an ablation".to_owned(),
+        _ => format!("a study of {}", study.name().name()),
+    };
+    let runs = format!("{kind}, {}", describe_runs(comparison));
     console.result(describe_grid(title, &runs, comparison.axes()).join("\n"));
     console.result(line("spheres", scene.spheres.count));
     console.result(line("effects", effects(scene).join(", ")));
