@@ -24,8 +24,8 @@ use std::path::{Path, PathBuf};
 /// The file names the study (`study = "..."`). `stability` finds where integrators are stable over
 /// two keys of a scene. `accuracy` measures what settings of a scene cost in time, and how wrong
 /// they are. `ablation` takes each effect of a sweep away by itself, or reduces it to a
-/// simpler law; --ablate does so for any scene or sweep. Runs that have a row in the table are not
-/// made again.
+/// simpler law; --ablate does so for any scene or sweep. Runs that have a row in the table or a
+/// record are not made again.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Examples: where do integrators break in Newton's cradle; how large may the time step of a collapse
