@@ -17,6 +17,7 @@ mod options;
 mod overlaps;
 mod progress;
 mod refined;
+mod rounds;
 mod runs;
 mod time_step;
 mod values;

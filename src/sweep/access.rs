@@ -50,10 +50,23 @@ impl Folder {
             })
         });
         match access.map_err(self.io_error())? {
-            Some(Access::Shared(_)) if self.read_sweep().ok().as_ref() != Some(sweep) => None,
+            Some(Access::Shared(_)) if !self.is_run_with(sweep) => None,
             access => access,
         }
         .ok_or_else(|| FolderError::Locked(self.root().to_owned()))
+    }
+
+    /// Whether what is run into the folder goes together with a sweep: it is the same, or a study
+    /// of the same grid. Which settings a study has may follow from its first runs.
+    fn is_run_with(&self, sweep: &Sweep) -> bool {
+        let basis = |sweep: &Sweep| match sweep.study {
+            None => sweep.clone(),
+            Some(_) => Sweep {
+                axes: sweep.axes[..sweep.axes.len().saturating_sub(1)].to_vec(),
+                ..sweep.clone()
+            },
+        };
+        self.read_sweep().is_ok_and(|it| basis(&it) == basis(sweep))
     }
 
     /// Lets other processes run the same sweep into the folder. If no other process is there, what

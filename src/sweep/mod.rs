@@ -15,6 +15,7 @@ mod records;
 mod refining;
 mod select;
 mod status;
+mod study;
 pub mod work;
 
 pub use crate::document::differing_keys;
@@ -41,6 +42,8 @@ pub use refining::{
 };
 pub use select::{SelectError, Selection, parse_point};
 pub use status::{Status, UnderWay};
+pub use study::StudyRuns;
+pub(crate) use study::{fit_frames, output_of_balance};
 
 use crate::classify::Sieves;
 use crate::grid::{Axis, Variant, variant_at};
@@ -65,6 +68,9 @@ pub struct Sweep {
     /// may have.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub refine: Option<Settings>,
+    /// How its points become runs, if it is the sweep of a study.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub study: Option<StudyRuns>,
     /// Thresholds of the sieves.
     pub sieves: Sieves,
     /// What the phase diagram shows.
@@ -79,6 +85,7 @@ impl Sweep {
             axes: Vec::new(),
             seeds: vec![scene.seed],
             refine: None,
+            study: None,
             scene,
             sieves: Sieves::default(),
             plot: PlotSettings::default(),

@@ -1,7 +1,7 @@
 //! What a results folder already holds of a sweep, and what is left to do.
 
 use super::{Folder, Job, differing_keys, work};
-use crate::record::{Outcome, Program};
+use crate::record::{Outcome, Program, RunRecord};
 use crate::scene::{LIST_KEY, Output, Scene};
 use crate::store::{self, StoreError};
 use std::collections::HashSet;
@@ -92,6 +92,17 @@ impl Plan {
         }
     }
 
+    /// The same plan with jobs that have a label, so that they need no good record.
+    #[must_use]
+    pub fn with_labels(mut self, is_labelled: impl Fn(&Job) -> bool) -> Self {
+        for (job, standing) in &mut self.jobs {
+            if !matches!(standing, Standing::Done(_)) && is_labelled(job) {
+                *standing = Standing::Labelled;
+            }
+        }
+        self
+    }
+
     /// Refuses to write where records of other scenes are in the way.
     ///
     /// # Errors
@@ -132,6 +143,20 @@ impl Plan {
             .iter()
             .filter(move |(_, standing)| pending(standing))
             .map(|(job, _)| job)
+    }
+}
+
+impl Folder {
+    /// Reads the record of a job; none if it has no good one.
+    ///
+    /// # Errors
+    /// Those of [`store::read_record`].
+    pub fn read_record_of(&self, job: &Job) -> Result<Option<RunRecord>, StoreError> {
+        let path = self.record(&job.id);
+        match standing(job, &path) {
+            Standing::Done(_) => store::read_record(&path).map(Some),
+            _ => Ok(None),
+        }
     }
 }
 

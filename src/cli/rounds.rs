@@ -1,9 +1,9 @@
-//! Runs the jobs of a sweep and watches them. The rounds of refined sweeps are in `refining.rs`.
+//! Runs the jobs of sweeps and of studies and watches them. Here a backend is chosen.
 
-use crate::cli::console::{Console, name_first};
-use crate::cli::exit::Failure;
-use crate::cli::progress::{Progress, Work};
-use crate::cli::{builds, format, job};
+use super::console::{Console, name_first};
+use super::exit::Failure;
+use super::progress::{Progress, Work};
+use super::{builds, format, job};
 use phase::grid::describe;
 use phase::record::{Outcome, RunRecord};
 use phase::run::model_of;
@@ -23,22 +23,22 @@ pub(super) struct Rounds<'a> {
     pub(super) stop: &'a AtomicBool,
     pub(super) checkpoint_interval: Duration,
     pub(super) force: bool,
-    /// Whether figures are drawn.
-    pub(super) draws: bool,
     pub(super) console: &'a Console,
 }
 
 impl Rounds<'_> {
-    /// Runs all points of the grid. Gives the plan, and what was run.
-    pub(super) fn run(&self, sweep: &Sweep, jobs: Vec<Job>) -> Result<(Plan, Run), Failure> {
-        let plan = if self.force {
-            Plan::afresh(jobs)
-        } else {
-            Plan::new(self.folder, jobs, self.workers)?
-        };
-        tell_of_plan(&plan, self.console);
-        let run = self.with_pool(sweep, |pool| self.run_part(&plan, pool, Part::default()))?;
-        Ok((plan, run))
+    /// What is done of these jobs, and what is left.
+    pub(super) fn plan(&self, jobs: Vec<Job>) -> Result<Plan, Failure> {
+        Ok(match self.force {
+            true => Plan::afresh(jobs),
+            false => Plan::new(self.folder, jobs, self.workers)?,
+        })
+    }
+
+    /// Runs what is left of a plan.
+    pub(super) fn run(&self, sweep: &Sweep, plan: &Plan) -> Result<Run, Failure> {
+        tell_of_plan(plan, self.console);
+        self.with_pool(sweep, |pool| self.run_part(plan, pool, Part::default()))
     }
 
     /// Calls `act` with the pool that runs the jobs of a sweep.
@@ -157,24 +157,17 @@ fn work_of(plan: &Plan, part: Part, sweep: &Sweep) -> Work {
 
 impl Run {
     /// Prints what was done and names what went wrong.
-    pub(super) fn print(
-        &self,
-        plan: &Plan,
-        sweep: &Sweep,
-        console: &Console,
-    ) -> Result<(), Failure> {
+    pub(super) fn print(&self, plan: &Plan, sweep: &Sweep, console: &Console) {
         console.result(self.summary(plan, sweep));
-        let names = |jobs: &[JobFailure]| -> Vec<String> {
-            let named = |job: &JobFailure| {
-                let name = describe(&sweep.axes, &job.values, job.seed);
-                format!("{name} (job {}): {}", job.id, job.reason)
-            };
-            jobs.iter().map(named).collect()
-        };
-        name_first(&names(&self.unstable), |name| {
+        name_first(&names(&self.unstable, sweep), |name| {
             console.note(format_args!("unstable: {name}"));
         });
-        name_first(&names(&self.report.failures), |name| {
+        self.tell_of_failures(sweep, console);
+    }
+
+    /// Names the jobs that failed.
+    pub(super) fn tell_of_failures(&self, sweep: &Sweep, console: &Console) {
+        name_first(&names(&self.report.failures, sweep), |name| {
             console.error(format_args!("failed: {name}"));
         });
         if let Some(error) = &self.report.unnoted {
@@ -182,7 +175,6 @@ impl Run {
                 "the table of failed jobs could not be written: {error}"
             ));
         }
-        Ok(())
     }
 
     /// How much was done, how fast, and what is left.
@@ -225,6 +217,15 @@ impl Run {
         }
         text
     }
+}
+
+/// Names jobs, each with what went wrong.
+fn names(jobs: &[JobFailure], sweep: &Sweep) -> Vec<String> {
+    let named = |job: &JobFailure| {
+        let name = describe(&sweep.axes, &job.values, job.seed);
+        format!("{name} (job {}): {}", job.id, job.reason)
+    };
+    jobs.iter().map(named).collect()
 }
 
 /// Says what is done already, and what is run again and why.
