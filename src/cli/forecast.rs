@@ -1,7 +1,7 @@
 //! The cost of the runs of a study.
 
 use super::exit::Failure;
-use phase::cost::{Forecast, Leaves, forecast};
+use phase::cost::{Forecast, forecast};
 use phase::study::comparison::Comparison;
 use phase::sweep::Job;
 use std::collections::HashSet;
@@ -22,8 +22,7 @@ pub(super) fn of_settings(
         if jobs.is_empty() {
             continue;
         }
-        let own = forecast(&jobs, workers, budget / settings, Leaves::Nothing);
-        let own = own.map_err(Failure::failed)?;
+        let own = forecast(&jobs, workers, budget / settings)?;
         sum = Some(match sum {
             None => own,
             Some(sum) => {
@@ -35,7 +34,7 @@ pub(super) fn of_settings(
                     rate: work as f64 / spent,
                     seconds,
                     memory: sum.memory.max(own.memory),
-                    disk: None,
+                    disk: sum.disk + own.disk,
                 }
             }
         });

@@ -4,6 +4,7 @@ use super::console::{Console, name_first};
 use super::exit::Failure;
 use super::format;
 use phase::classify::{ClassifyError, Label, LabelTable};
+use phase::store;
 use phase::sweep::{Folder, Job, Labelled, Labelling, LabellingError, Learnt, Since, Sweep};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -23,6 +24,31 @@ pub(super) fn cannot_write(error: LabellingError) -> Failure {
         _ => Failure::failed(error),
     }
 }
+
+/// The labels of a folder of a sweep.
+pub(super) fn read(folder: &Folder) -> Result<LabelTable, Failure> {
+    let (root, path) = (folder.root(), folder.labels());
+    if folder.read_sweep().is_ok_and(|it| it.study.is_some()) {
+        return Err(Failure::refused(OF_STUDY).at(root));
+    }
+    if !path.exists() {
+        return Err(Failure::refused(format_args!(
+            "no labels yet; run `phase classify {}` first",
+            root.display()
+        ))
+        .at(path));
+    }
+    store::read_labels(&path).map_err(|error| {
+        Failure::failed(format_args!(
+            "{error}; `phase classify {}` rewrites it",
+            root.display()
+        ))
+    })
+}
+
+/// Why the labels of a folder are not made or looked at.
+pub(super) const OF_STUDY: &str = "this folder holds the results of a study, which has its labels \
+                                   in runs.csv and its own figures";
 
 /// The labels of a folder in numbers.
 #[derive(Serialize)]

@@ -111,3 +111,21 @@ pub(super) fn number(text: &str) -> Result<f64, String> {
     let finite = number.filter(|number: &f64| number.is_finite());
     finite.ok_or_else(|| "give a number".to_owned())
 }
+
+/// Parses a number of seeds from which noise can be told.
+pub(super) fn three_or_more(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(number) if (3..=10_000).contains(&number) => Ok(number),
+        _ => Err(
+            "must be a whole number from 3 to 10000: fewer seeds tell nothing from noise".into(),
+        ),
+    }
+}
+
+/// Parses a word of the name of an effect.
+pub(super) fn word(text: &str) -> Result<String, String> {
+    match text.trim() {
+        "" => Err("give words of the names of effects, or leave out `=` for all of them".into()),
+        word => Ok(word.to_owned()),
+    }
+}

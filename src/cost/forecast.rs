@@ -25,17 +25,8 @@ pub struct Forecast {
     pub seconds: f64,
     /// Memory while it runs (bytes), roughly.
     pub memory: f64,
-    /// Size of all records (bytes), if they are left.
-    pub disk: Option<f64>,
-}
-
-/// What each run leaves.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Leaves {
-    /// A record.
-    Records,
-    /// Nothing but a row of a table.
-    Nothing,
+    /// Size of all records (bytes).
+    pub disk: f64,
 }
 
 /// Why there is no forecast.
@@ -87,16 +78,11 @@ struct Trial {
 ///
 /// # Errors
 /// If a job of the trial fails.
-pub fn forecast(
-    jobs: &[Job],
-    workers: usize,
-    budget: Duration,
-    leaves: Leaves,
-) -> Result<Forecast, ForecastError> {
+pub fn forecast(jobs: &[Job], workers: usize, budget: Duration) -> Result<Forecast, ForecastError> {
     let chosen = representatives(jobs);
     let rounds = chosen.len().div_ceil(workers.max(1)).max(1);
     let budget = budget / rounds as u32;
-    let trials = work::map(workers, &chosen, |it| try_job(it.job, budget, leaves))?;
+    let trials = work::map(workers, &chosen, |it| try_job(it.job, budget))?;
     let trials: Vec<Trial> = trials.into_iter().collect::<Result<_, _>>()?;
     let sum = |value: &dyn Fn(&Trial, &Representative<'_>) -> f64| -> f64 {
         let pairs = trials.iter().zip(&chosen);
@@ -117,7 +103,7 @@ pub fn forecast(
         rate,
         seconds: work as f64 / rate / at_once,
         memory: PROGRAM_MEMORY + at_once * mean(|trial| trial.memory),
-        disk: (leaves == Leaves::Records).then(|| jobs.len() as f64 * mean(|trial| trial.disk)),
+        disk: jobs.len() as f64 * mean(|trial| trial.disk),
     })
 }
 
@@ -125,7 +111,7 @@ pub fn forecast(
 const PROGRAM_MEMORY: f64 = 10e6;
 
 /// Runs the beginning of a job for about the time of the budget.
-fn try_job(job: &Job, budget: Duration, leaves: Leaves) -> Result<Trial, ForecastError> {
+fn try_job(job: &Job, budget: Duration) -> Result<Trial, ForecastError> {
     let failed = |source| ForecastError::Cost {
         id: job.id.clone(),
         source,
@@ -138,23 +124,17 @@ fn try_job(job: &Job, budget: Duration, leaves: Leaves) -> Result<Trial, Forecas
     // The rest of the budget is for runs that end, since only these tell the size of a whole
     // record.
     let cost = RunCost::measure(&job.scene, budget / 2).map_err(failed)?;
-    let disk = match (leaves, cost.whole) {
-        (Leaves::Nothing, _) => 0.0,
-        (Leaves::Records, true) => size_of_record(&cost.record)?,
-        (Leaves::Records, false) => {
+    let disk = match cost.whole {
+        true => size_of_record(&cost.record)?,
+        false => {
             let all_frames = job.scene.time.frames();
             size_of_whole_run(job, (cost.frames / 2).max(2).min(all_frames))?
         }
     };
-    let start = cost.seconds(START);
-    // The record is written by the same worker.
-    let record = match leaves {
-        Leaves::Records => cost.seconds(RECORD),
-        Leaves::Nothing => 0.0,
-    };
     Ok(Trial {
         step: cost.elapsed / cost.work.max(1) as f64,
-        once: start + record,
+        // The record is written by the same worker.
+        once: cost.seconds(START) + cost.seconds(RECORD),
         disk,
         // The record in memory and as the bytes of its file, neither compressed.
         memory: 4.0 * disk + job.scene.spheres.count as f64 * ENGINE_BYTES,

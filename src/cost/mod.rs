@@ -9,6 +9,6 @@ mod representatives;
 mod run;
 mod sweep;
 
-pub use forecast::{Forecast, ForecastError, Leaves, forecast};
+pub use forecast::{Forecast, ForecastError, forecast};
 pub use run::{CostError, OBSERVERS, PartCost, RECORD, RunCost, START};
 pub use sweep::{SweepCost, TriedJob};

@@ -8,7 +8,7 @@ use super::scale::AxisSpan;
 use super::style::px;
 use super::svg::Svg;
 use super::ticks::Ticks;
-use super::{PlotError, palette};
+use super::{Figure, PlotError, StudyResult, palette};
 use crate::record::Program;
 use crate::study::ablation::{Ablated, Verdict};
 use crate::study::comparison::Cost;
@@ -21,12 +21,19 @@ const ROW: i32 = px(20);
 /// Half the width of a bar, in rows.
 const HALF: f64 = 0.3;
 
+pub(super) fn figure() -> Figure {
+    let description = "labels that change without each effect, and the time that this saves";
+    Figure::of_study("ablation", description, |study, program| match study {
+        StudyResult::Ablation(ablation, ablated, cost) => {
+            Some(draw(ablated, cost, &ablation.comparison.sweep, program))
+        }
+        _ => None,
+    })
+}
+
 /// Draws a row for each simplification: the share of labels that it changes beyond the noise of
 /// seeds with its interval, and its time over that of the scene as it is, whose cost is `cost`.
-///
-/// # Errors
-/// [`PlotError`] if the figure cannot be drawn.
-pub fn draw(
+fn draw(
     ablated: &[Ablated],
     cost: &Cost,
     sweep: &Sweep,

@@ -202,6 +202,7 @@ mod tests {
             axes,
             seeds: vec![1],
             refine: None,
+            study: None,
             sieves: Sieves::default(),
             plot: PlotSettings::default(),
         };

@@ -3,10 +3,10 @@
 use super::choice::DefaultRuns;
 use super::runs::Runs;
 use super::{PlotError, Source, StudyResult, Svg};
-use super::{beverloo, critical_rotation, drainage, energies, ledger, map, measures, net_force};
-use super::{phase, refined, speeds, states, tracks, verification};
+use super::{ablation, accuracy, beverloo, critical_rotation, drainage, energies, ledger, map};
+use super::{measures, net_force, phase, refined, speeds, stability, states, tracks, verification};
 use crate::classify::Family;
-use crate::record::RunRecord;
+use crate::record::{Program, RunRecord};
 use std::sync::LazyLock;
 
 /// A figure.
@@ -41,9 +41,11 @@ pub(super) enum Draw {
     },
     /// From one record.
     Record(fn(&RunRecord) -> Result<Svg, PlotError>),
-    /// From what a study found.
-    Study(fn(&StudyResult<'_>) -> Result<Svg, PlotError>),
+    /// From what a study found; `None` if it is of another study.
+    Study(DrawStudy),
 }
+
+type DrawStudy = fn(StudyResult<'_>, &Program) -> Option<Result<Svg, PlotError>>;
 
 static FIGURES: LazyLock<Vec<Figure>> = LazyLock::new(|| {
     let mut figures = vec![
@@ -61,6 +63,8 @@ static FIGURES: LazyLock<Vec<Figure>> = LazyLock::new(|| {
     figures.extend(drainage::figures());
     figures.extend(map::MAPS.iter().map(map::figure));
     figures.extend([tracks::figure(), ledger::figure(), verification::figure()]);
+    figures.extend([stability::figure(), ablation::figure()]);
+    figures.extend(accuracy::figures());
     figures
 });
 
@@ -127,11 +131,7 @@ impl Figure {
     }
 
     /// A figure of what a study found.
-    pub(super) fn of_study(
-        name: &'static str,
-        description: &str,
-        draw: fn(&StudyResult<'_>) -> Result<Svg, PlotError>,
-    ) -> Self {
+    pub(super) fn of_study(name: &'static str, description: &str, draw: DrawStudy) -> Self {
         Self::new(name, description, Draw::Study(draw))
     }
 

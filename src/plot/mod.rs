@@ -7,8 +7,8 @@
 //!
 //! To add a figure: a file with a function `figure`, and a line in the table of `figure.rs`.
 
-pub mod ablation;
-pub mod accuracy;
+mod ablation;
+mod accuracy;
 mod axes;
 mod beverloo;
 mod canvas;
@@ -43,7 +43,7 @@ mod scale;
 mod series;
 mod spacing;
 mod speeds;
-pub mod stability;
+mod stability;
 mod states;
 mod style;
 mod svg;
@@ -62,6 +62,10 @@ pub use svg::Svg;
 use crate::classify::LabelTable;
 use crate::record::{Program, RunRecord};
 use crate::store::StoreError;
+use crate::study::ablation::{Ablated, Ablation};
+use crate::study::accuracy::{AccuracyStudy, Evaluation};
+use crate::study::comparison::{Comparison, Cost, RunRow};
+use crate::study::stability::StabilityStudy;
 use crate::sweep::{Refining, Selection, Sweep};
 use figure::Draw;
 use runs::Runs;
@@ -74,8 +78,8 @@ pub enum FigureInput<'a> {
     Sweep(&'a Source<'a>),
     /// Records beside each other.
     Records(RecordSet<'a>),
-    /// What a study found.
-    Study(StudyResult<'a>),
+    /// What a study found, and the program that made its runs.
+    Study(StudyResult<'a>, &'a Program),
 }
 
 /// A sweep with its labels and runs.
@@ -99,9 +103,19 @@ pub struct Source<'a> {
 }
 
 /// What studies found, each of which has figures of its own.
+#[derive(Clone, Copy)]
 pub enum StudyResult<'a> {
-    /// The cases of `phase verify`, and the program that ran them.
-    Verification(&'a [CaseError], &'a Program),
+    /// The cases of `phase verify`.
+    Verification(&'a [CaseError]),
+    /// A study of stability, and the rows of its runs.
+    Stability(&'a StabilityStudy, &'a [Option<RunRow>]),
+    /// A study of accuracy, and what follows from its runs.
+    Accuracy(&'a AccuracyStudy, &'a Evaluation),
+    /// The rows of the runs of a study of accuracy, and what the time of a step is drawn against:
+    /// the name of an axis, or the last part of a ladder's key.
+    StepTimes(&'a Comparison, &'a [Option<RunRow>], &'a str),
+    /// An ablation, what each simplification does, and what a run of the scene as it is costs.
+    Ablation(&'a Ablation, &'a [Ablated], &'a Cost),
 }
 
 impl<'a> From<&'a Source<'a>> for FigureInput<'a> {
@@ -116,9 +130,9 @@ impl<'a> From<RecordSet<'a>> for FigureInput<'a> {
     }
 }
 
-impl<'a> From<StudyResult<'a>> for FigureInput<'a> {
-    fn from(study: StudyResult<'a>) -> Self {
-        Self::Study(study)
+impl<'a> From<(StudyResult<'a>, &'a Program)> for FigureInput<'a> {
+    fn from((study, program): (StudyResult<'a>, &'a Program)) -> Self {
+        Self::Study(study, program)
     }
 }
 
@@ -146,14 +160,17 @@ pub fn draw<'a>(name: &str, input: impl Into<FigureInput<'a>>) -> Result<Svg, Pl
     match input.into() {
         FigureInput::Sweep(source) => draw_sweep(name, source),
         FigureInput::Records(records) => draw_records(name, &records),
-        FigureInput::Study(study) => {
+        FigureInput::Study(study, program) => {
             let figure = figures().iter().find(|figure| figure.name == name);
-            match figure.map(|figure| &figure.draw) {
-                Some(Draw::Study(draw)) => draw(&study),
-                _ => Err(PlotError::request(format_args!(
-                    "the figure `{name}` is not of a study"
-                ))),
-            }
+            let drawn = match figure.map(|figure| &figure.draw) {
+                Some(Draw::Study(draw)) => draw(study, program),
+                _ => None,
+            };
+            drawn.unwrap_or_else(|| {
+                Err(PlotError::request(format_args!(
+                    "the figure `{name}` is not of this study"
+                )))
+            })
         }
     }
 }

@@ -5,35 +5,42 @@ use super::contour::{Nodes, Piece};
 use super::grid::{GridAxis, GridPanel};
 use super::panel_curve::{PanelCurve, Stroke};
 use super::svg::Svg;
-use super::{PlotError, Source, phase};
+use super::{Figure, PlotError, Source, StudyResult, phase};
 use crate::dem::timestep::{Limit, limits};
 use crate::record::Program;
 use crate::store::StoreError;
-use crate::study::comparison::{RunRow, Setting};
+use crate::study::comparison::RunRow;
 use crate::study::stability::StabilityStudy;
+use crate::sweep::Sweep;
 use std::path::Path;
 
 /// What the legend calls the full and the dashed curves.
 const LIMITS: [&str; 2] = ["limit of the time step", "advised limit of twelve contacts"];
 
+pub(super) fn figure() -> Figure {
+    let description = "where integrators are stable, with the limits of the time step";
+    Figure::of_study("stability", description, |study, program| match study {
+        StudyResult::Stability(study, rows) => Some(draw(study, rows, program)),
+        _ => None,
+    })
+}
+
 /// Draws the rows of a study.
-///
-/// # Errors
-/// [`PlotError`] if the figure cannot be drawn.
-pub fn draw(
+fn draw(
     study: &StabilityStudy,
     rows: &[Option<RunRow>],
     program: &Program,
 ) -> Result<Svg, PlotError> {
-    let (sweep, table) = study.labels(rows);
+    let sweep = &study.comparison.sweep;
+    let table = study.labels(rows);
     let source = Source {
-        sweep: &sweep,
+        sweep,
         refining: None,
         table: &table,
         record: &|id| {
             Err(StoreError::content(
                 Path::new(id),
-                "a study keeps no records",
+                "this figure looks at no records",
             ))
         },
         points: &[],
@@ -43,10 +50,7 @@ pub fn draw(
     phase::with_diagram("stability", &source, |diagram| {
         let grid = diagram.grid;
         let curves = |panel: &GridPanel| match (grid.variant(panel), grid.axes(panel)) {
-            (Some(place), (x, Some(y))) => {
-                let setting = &study.comparison.settings[place as usize];
-                curves(study, setting, x, y)
-            }
+            (Some(place), (x, Some(y))) => curves(sweep, place, x, y),
             _ => Vec::new(),
         };
         diagram.draw_with(&source, &curves, LIMITS)
@@ -55,19 +59,15 @@ pub fn draw(
 
 /// The limit that decides, and the advised one of a sphere with twelve contacts, which there is not
 /// with sub-steps or without contacts.
-fn curves(
-    study: &StabilityStudy,
-    setting: &Setting,
-    x: &GridAxis,
-    y: &GridAxis,
-) -> Vec<PanelCurve> {
+fn curves(sweep: &Sweep, integrator: f64, x: &GridAxis, y: &GridAxis) -> Vec<PanelCurve> {
     let (across, up) = (nodes(x), nodes(y));
-    let at_nodes = across
-        .iter()
-        .flat_map(|&x_value| up.iter().map(move |&y_value| [x_value, y_value]));
+    let at_nodes = across.iter().flat_map(|&x_value| {
+        up.iter()
+            .map(move |&y_value| [x_value, y_value, integrator])
+    });
     let all: Vec<Option<(f64, Vec<Limit>)>> = at_nodes
         .map(|values| {
-            let scene = study.frames.scene_at(&setting.sweep, &values).ok()?;
+            let scene = sweep.scene_at(&values).ok()?;
             Some((scene.time.dt, limits(&scene)))
         })
         .collect();

@@ -36,8 +36,9 @@ const TITLE: &str = "Verification";
 
 pub(super) fn figure() -> Figure {
     let description = "errors of the cases of `phase verify` over their tolerances";
-    Figure::of_study("verification", description, |study| match study {
-        StudyResult::Verification(errors, program) => draw(errors, program),
+    Figure::of_study("verification", description, |study, program| match study {
+        StudyResult::Verification(errors) => Some(draw(errors, program)),
+        _ => None,
     })
 }
 

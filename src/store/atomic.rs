@@ -1,7 +1,7 @@
 //! Files that appear whole or not at all.
 
 use super::StoreError;
-use super::process::{Process, is_alive};
+use super::process::{ProcessIdentity, is_alive};
 use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
@@ -137,7 +137,7 @@ fn writer_of(name: &str) -> Option<u32> {
 
 /// The name of this machine, as far as it may stand in the name of a file.
 fn machine() -> String {
-    let name = Process::this().host.chars();
+    let name = ProcessIdentity::this().host.chars();
     name.filter(char::is_ascii_alphanumeric).collect()
 }
 

@@ -171,17 +171,14 @@ fn read_header(header: &StringRecord) -> Result<LabelColumns, String> {
     };
     let mut families = FAMILIES.into_iter();
     let either = |family| read(family, false).or_else(|| read(family, true));
-    families.find_map(either).ok_or_else(|| {
-        let known = FAMILIES.map(|family| {
-            let columns = columns(family, &["<axes>".to_owned()], false).join(",");
-            format!("of a {} {columns}", family.name)
-        });
-        format!(
-            "this is not the header line of a table of labels, which is {}; make the table again \
-             with `phase classify`",
-            known.join(", or ")
-        )
-    })
+    families
+        .find_map(either)
+        .ok_or_else(|| match header.is_empty() {
+            true => "this file is empty".to_owned(),
+            false => "this is not the header line of a table of labels, which names id, the axes, \
+                      seed, label, code and the measures of a family"
+                .to_owned(),
+        })
 }
 
 fn read_row(

@@ -11,7 +11,7 @@
 //! do, and gives it the name `NAME`. Should that process die in between, `NAME.1` is broken with
 //! `NAME.2`, and so on.
 
-use super::process::Process;
+use super::process::ProcessIdentity;
 use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 use std::ffi::OsString;
@@ -46,7 +46,7 @@ const SUFFIX: &str = ".lease";
 pub struct Holder {
     /// The process.
     #[serde(flatten)]
-    pub process: Process,
+    pub process: ProcessIdentity,
     /// When it was taken, by the clock of the holder (seconds since 1970).
     pub since: u64,
     /// Number of the lease in its process.
@@ -156,7 +156,7 @@ impl Drop for Lease {
 
 /// The leases that one process holds and watches.
 struct Leases {
-    process: Process,
+    process: ProcessIdentity,
     beat: Duration,
     patience: Duration,
     /// The clock that signs of life are written with.
@@ -183,13 +183,19 @@ struct Seen {
 
 impl Leases {
     fn ours() -> &'static Self {
-        static OURS: LazyLock<Leases> =
-            LazyLock::new(|| Leases::new(Process::this().clone(), BEAT, PATIENCE, SystemTime::now));
+        static OURS: LazyLock<Leases> = LazyLock::new(|| {
+            Leases::new(
+                ProcessIdentity::this().clone(),
+                BEAT,
+                PATIENCE,
+                SystemTime::now,
+            )
+        });
         &OURS
     }
 
     fn new(
-        process: Process,
+        process: ProcessIdentity,
         beat: Duration,
         patience: Duration,
         clock: fn() -> SystemTime,

@@ -34,7 +34,7 @@ pub use import::read_states;
 pub use labels::{read_labels, write_labels, write_points};
 pub use lease::{Holder, Lease, Tenure};
 pub use own::is_own_file;
-pub use process::Process;
+pub use process::ProcessIdentity;
 pub use record::{
     HDF5_SIGNATURE, RecordHeader, content_digest, motion_digest, read_record, read_record_header,
     write_record, write_record_and_drop_states,

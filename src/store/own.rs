@@ -52,7 +52,6 @@ fn kind_of(name: &str) -> Option<OwnFile> {
         "runs.csv" | "accuracy.csv" => OwnFile::Table("setting,"),
         "ablation.csv" => OwnFile::Table("without,"),
         "stability.json" => OwnFile::Object(&["integrators"]),
-        "runs.makers.csv" => OwnFile::Table("id,version,commit"),
         "verification.csv" => OwnFile::Table("family,case,integrator,quantity"),
         name if name.ends_with("-observations.csv") => OwnFile::Table("time,"),
         name if name.ends_with("-fixed.csv") => OwnFile::Table("kind,x,y,z,radius"),
@@ -158,7 +157,6 @@ mod tests {
             ("run.xyz", "1\nsteel\nFe 0 0 0\n"),
             ("walls.vtp", "<?xml version=\"1.0\"?>\n<VTKFile>"),
             ("phase.1", ".TH moon 1\n"),
-            ("runs.makers.csv", "run,build\n"),
             ("notes.txt", "phase"),
         ] {
             let path = place.path().join(name);

@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 
 /// A process that may share a folder with others, on this machine or on another one.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Process {
+pub struct ProcessIdentity {
     /// The name of its machine.
     pub host: String,
     /// Its number.
@@ -24,12 +24,12 @@ pub struct Process {
     pub(super) started: Option<u64>,
 }
 
-impl Process {
+impl ProcessIdentity {
     /// This process.
     pub fn this() -> &'static Self {
-        static THIS: LazyLock<Process> = LazyLock::new(|| {
+        static THIS: LazyLock<ProcessIdentity> = LazyLock::new(|| {
             let number = std::process::id();
-            Process {
+            ProcessIdentity {
                 host: host(),
                 number,
                 task: task(),
@@ -121,9 +121,9 @@ mod tests {
 
     #[test]
     fn a_process_knows_who_lives_on_its_machine() {
-        let this = Process::this();
+        let this = ProcessIdentity::this();
         assert_eq!(this.is_alive_for(this), Some(true));
-        let elsewhere = Process {
+        let elsewhere = ProcessIdentity {
             host: format!("not-{}", this.host),
             ..this.clone()
         };
@@ -132,12 +132,12 @@ mod tests {
             return;
         }
         // A container or a machine of the same name, and a number that was given again.
-        let container = Process {
+        let container = ProcessIdentity {
             system: Some("another".to_owned()),
             ..this.clone()
         };
         assert_eq!(container.is_alive_for(this), None);
-        let earlier = Process {
+        let earlier = ProcessIdentity {
             started: this.started.map(|ticks| ticks - 1),
             ..this.clone()
         };

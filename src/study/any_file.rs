@@ -4,7 +4,7 @@ use super::StudyName;
 use super::ablation::{Ablation, AblationError, AblationOptions};
 use super::accuracy::{self, AccuracyStudy};
 use super::stability::{self, StabilityStudy};
-use crate::document::{Document, LoadError, Problem};
+use crate::document::{Document, Problem};
 use crate::run::{self, Reading};
 use crate::scene::{FileKind, Scene};
 use crate::sweep::{self, Sweep};
@@ -37,14 +37,19 @@ impl AnyFile {
     ///
     /// # Errors
     /// All that is wrong with the file, each with line, column and the fix.
-    pub fn load(path: &Path) -> Result<Self, LoadError> {
+    pub fn load(path: &Path) -> Result<Self, AblationError> {
         let document = Document::read(path)?;
         Ok(match FileKind::of(&document).0 {
             FileKind::Scene => {
                 Self::Scene(Box::new(run::base_of_document(&document, Reading::RUN)?))
             }
-            FileKind::Sweep => Self::Sweep(Box::new(sweep::of_document(&document)?)),
-            FileKind::Study => Self::Study(AnyStudy::of_document(&document)?),
+            FileKind::Sweep if !StudyName::is_ablation(&document) => {
+                Self::Sweep(Box::new(sweep::of_document(&document)?))
+            }
+            _ => Self::Study(AnyStudy::of_document(
+                &document,
+                AblationOptions::default(),
+            )?),
         })
     }
 }
@@ -60,33 +65,49 @@ impl AnyStudy {
         options: AblationOptions,
     ) -> Result<Self, AblationError> {
         let document = Document::read(path)?;
-        let (kind, key) = FileKind::of(&document);
-        let is_ablation = StudyName::of(&document) == Some(StudyName::Ablation);
-        match kind {
-            FileKind::Study if ablate => {
+        let refuse = |key: &str, message: String, help: &str| {
+            let problem = Problem::new(key, message).help(help).at_key();
+            Err(document.refuse(&[problem]).into())
+        };
+        match FileKind::of(&document) {
+            (FileKind::Study, key) if ablate => {
                 let message = "this is a study of its own, which has no ablation";
                 let help = "leave out --ablate, or give a scene or sweep";
-                let problem = Problem::new(key, message).help(help).at_key();
-                Err(document.refuse(&[problem]).into())
+                refuse(key, message.to_owned(), help)
             }
-            FileKind::Study => Ok(Self::of_document(&document)?),
-            _ if ablate || is_ablation => {
-                let ablation = Ablation::of_document(&document, options)?;
-                Ok(Self::Ablation(Box::new(ablation)))
+            (FileKind::Scene | FileKind::Sweep, _) if ablate => {
+                Self::of_ablation(&document, options)
             }
-            _ => {
+            (kind @ (FileKind::Scene | FileKind::Sweep), key)
+                if !StudyName::is_ablation(&document) =>
+            {
                 let message = format!("this is a {}, not a study", kind.name());
                 let help = "with --ablate it is a study of the effects that it needs";
-                let problem = Problem::new(key, message).help(help).at_key();
-                Err(document.refuse(&[problem]).into())
+                refuse(key, message, help)
             }
+            _ => Self::of_document(&document, options),
         }
     }
 
-    fn of_document(document: &Document) -> Result<Self, LoadError> {
-        Ok(match StudyName::of(document) {
-            Some(StudyName::Accuracy) => Self::Accuracy(Box::new(accuracy::of_document(document)?)),
-            _ => Self::Stability(Box::new(stability::of_document(document)?)),
+    /// Which study it is.
+    pub fn name(&self) -> StudyName {
+        match self {
+            Self::Stability(_) => StudyName::Stability,
+            Self::Accuracy(_) => StudyName::Accuracy,
+            Self::Ablation(_) => StudyName::Ablation,
+        }
+    }
+
+    fn of_document(document: &Document, options: AblationOptions) -> Result<Self, AblationError> {
+        Ok(match StudyName::of(document)? {
+            StudyName::Stability => Self::Stability(Box::new(stability::of_document(document)?)),
+            StudyName::Accuracy => Self::Accuracy(Box::new(accuracy::of_document(document)?)),
+            StudyName::Ablation => Self::of_ablation(document, options)?,
         })
+    }
+
+    fn of_ablation(document: &Document, options: AblationOptions) -> Result<Self, AblationError> {
+        let ablation = Ablation::of_document(document, options)?;
+        Ok(Self::Ablation(Box::new(ablation)))
     }
 }

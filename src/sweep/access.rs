@@ -1,7 +1,7 @@
 //! Which processes may write to a results folder, on any machine.
 
 use super::{Folder, FolderError, Sweep};
-use crate::store::{self, Holder, Lease, Process, Tenure};
+use crate::store::{self, Holder, Lease, ProcessIdentity, Tenure};
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -63,13 +63,26 @@ impl Folder {
         if self.at_work()?.is_empty() {
             return self.come_in(Some(door));
         }
-        if self.read_sweep().ok().as_ref() == Some(sweep) {
+        if self.is_run_with(sweep) {
             return self.come_in(None);
         }
         match self.other_for_sure(wait)? {
             Some(other) => Err(self.locked_by(Some(other))),
             None => self.come_in(Some(door)),
         }
+    }
+
+    /// Whether what is run into the folder goes together with a sweep: it is the same, or a study
+    /// of the same grid. Which settings a study has may follow from its first runs.
+    fn is_run_with(&self, sweep: &Sweep) -> bool {
+        let basis = |sweep: &Sweep| match sweep.study {
+            None => sweep.clone(),
+            Some(_) => Sweep {
+                axes: sweep.axes[..sweep.axes.len().saturating_sub(1)].to_vec(),
+                ..sweep.clone()
+            },
+        };
+        self.read_sweep().is_ok_and(|it| basis(&it) == basis(sweep))
     }
 
     /// Lets other processes run the same sweep into the folder. If no other process is there, what
@@ -173,7 +186,7 @@ impl Folder {
     /// Says that this process is in the folder.
     fn come_in(&self, door: Option<Lease>) -> Result<Access, FolderError> {
         static ENTRANCES: AtomicUsize = AtomicUsize::new(0);
-        let process = Process::this();
+        let process = ProcessIdentity::this();
         let entrance = ENTRANCES.fetch_add(1, Ordering::Relaxed);
         let name = format!("{PRESENCE}{}-{}-{entrance}", process.host, process.number);
         let presence = Lease::take(&self.root().join(name)).map_err(|it| self.io_error(it))?;

@@ -288,6 +288,11 @@ impl Folder {
         self.root.join("labels.csv")
     }
 
+    /// The table of the runs of a study, one row per run.
+    pub fn runs(&self) -> PathBuf {
+        self.root.join("runs.csv")
+    }
+
     /// The table of points, one row per point of the grid.
     pub fn points(&self) -> PathBuf {
         self.root.join("points.csv")

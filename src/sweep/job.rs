@@ -9,7 +9,8 @@ use crate::scene::Scene;
 /// One job of a sweep.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Job {
-    /// Identity of the run (see [`Scene::identity`]): the name of its record.
+    /// Identity of the run: the name of its record. That of the [scene](Scene::identity), unless
+    /// runs are [timed](super::StudyRuns::Timed).
     pub id: String,
     /// Value on each axis, in the sweep's order.
     pub values: Vec<f64>,
@@ -52,7 +53,7 @@ impl Sweep {
     }
 
     /// The jobs of these points and seeds, in this order.
-    pub(super) fn jobs_at(
+    pub(crate) fn jobs_at(
         &self,
         runs: impl Iterator<Item = (Vec<f64>, u64)>,
     ) -> Result<Vec<Job>, PointError> {
@@ -62,14 +63,14 @@ impl Sweep {
         for (values, seed) in runs {
             let scene = match last {
                 Some((at, scene)) if at == values => scene,
-                _ => scenes.checked(&values)?,
+                _ => self.scene_of_run(&mut scenes, &values)?,
             };
             let of_seed = Scene {
                 seed,
                 ..scene.clone()
             };
             jobs.push(Job {
-                id: of_seed.identity(),
+                id: self.id_of_run(&of_seed, &values),
                 values: values.clone(),
                 seed,
                 scene: of_seed,
@@ -87,10 +88,5 @@ impl Sweep {
     /// The points of the grid, in order.
     pub(crate) fn grid(&self) -> impl Iterator<Item = Vec<f64>> {
         grid::points(&self.axes)
-    }
-
-    /// The scene of a point of the grid, checked.
-    pub(crate) fn scene_at(&self, values: &[f64]) -> Result<Scene, PointError> {
-        PointScenes::new(&self.scene, &self.axes)?.checked(values)
     }
 }

@@ -113,6 +113,7 @@ pub(crate) fn of_document(document: &Document) -> Result<Sweep, LoadError> {
         axes,
         seeds,
         refine: None,
+        study: None,
         sieves: file.sieves,
         plot: file.plot,
     };

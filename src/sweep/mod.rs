@@ -18,6 +18,7 @@ mod refining;
 mod select;
 mod shard;
 mod status;
+mod study;
 pub mod work;
 
 pub use crate::document::differing_keys;
@@ -37,7 +38,7 @@ pub use labelling::{
 pub(crate) use load::{SWEEP, of_document};
 pub use load::{from_str, load};
 pub use merge::Taken;
-pub use next::Next;
+pub use next::NextJobs;
 pub use plan::{Done, ForeignRecord, Plan, PlanError, Standing};
 pub use pool::{Pool, PoolError};
 pub use refining::{
@@ -47,6 +48,8 @@ pub use refining::{
 pub use select::{SelectError, Selection, parse_point};
 pub use shard::{ForeignShard, Shard};
 pub use status::{Claimed, Status, UnderWay};
+pub use study::StudyRuns;
+pub(crate) use study::{fit_frames, output_of_balance};
 
 use crate::classify::Sieves;
 use crate::grid::{Axis, Variant, variant_at};
@@ -71,6 +74,9 @@ pub struct Sweep {
     /// may have.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub refine: Option<Settings>,
+    /// How its points become runs, if it is the sweep of a study.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub study: Option<StudyRuns>,
     /// Thresholds of the sieves.
     pub sieves: Sieves,
     /// What the phase diagram shows.
@@ -85,6 +91,7 @@ impl Sweep {
             axes: Vec::new(),
             seeds: vec![scene.seed],
             refine: None,
+            study: None,
             scene,
             sieves: Sieves::default(),
             plot: PlotSettings::default(),

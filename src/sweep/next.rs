@@ -6,14 +6,14 @@ use std::time::Duration;
 
 /// The jobs of a sweep, or of the next round of a refined one.
 #[derive(Clone, Debug)]
-pub struct Next {
+pub struct NextJobs {
     /// All of them, none twice.
     pub jobs: Vec<Job>,
     /// Places of those that are to be run, in increasing order.
     pub missing: Vec<usize>,
 }
 
-impl Next {
+impl NextJobs {
     /// Looks with that many workers at what a folder holds of a sweep. A refined sweep that has
     /// ended has no next jobs.
     ///

@@ -2,7 +2,7 @@
 
 use super::shard::ForeignShard;
 use super::{Folder, FolderError, Job, Shard, differing_keys, work};
-use crate::record::{Outcome, Program};
+use crate::record::{Outcome, Program, RunRecord};
 use crate::refusal::Refusal;
 use crate::scene::{LIST_KEY, Output, Scene};
 use crate::store::{self, StoreError};
@@ -183,6 +183,17 @@ impl Plan {
         }
     }
 
+    /// The same plan with jobs that have a label, so that they need no good record.
+    #[must_use]
+    pub fn with_labels(mut self, is_labelled: impl Fn(&Job) -> bool) -> Self {
+        for (job, standing) in &mut self.jobs {
+            if !matches!(standing, Standing::Done(_)) && is_labelled(job) {
+                *standing = Standing::Labelled;
+            }
+        }
+        self
+    }
+
     /// Refuses to write where records of other scenes are in the way.
     ///
     /// # Errors
@@ -235,6 +246,20 @@ fn each_once(mut jobs: Vec<Job>) -> Vec<Job> {
     let mut seen = HashSet::new();
     jobs.retain(|job| seen.insert(job.id.clone()));
     jobs
+}
+
+impl Folder {
+    /// Reads the record of a job; none if it has no good one.
+    ///
+    /// # Errors
+    /// Those of [`store::read_record`].
+    pub fn read_record_of(&self, job: &Job) -> Result<Option<RunRecord>, StoreError> {
+        let path = self.record(&job.id);
+        match standing(job, &path) {
+            Standing::Done(_) => store::read_record(&path).map(Some),
+            _ => Ok(None),
+        }
+    }
 }
 
 pub(super) fn standing(job: &Job, path: &Path) -> Standing {

@@ -1,6 +1,6 @@
 //! Ablations: each effect taken away, and whether the scene needs it.
 
-use crate::support::Workplace;
+use crate::support::{Workplace, end};
 use serde_json::Value;
 
 /// Eight spheres fall on a floor. The damping of their impacts decides how fast they are at the end;
@@ -108,9 +108,50 @@ fn runs_of_pairs_and_of_other_seeds_are_kept() {
     };
     let first = run("6");
     assert!(first["runs"].as_u64().unwrap() > 0);
+    // Symptom: "0 made now". Cause: only the runs of pairs were counted.
+    assert_eq!(
+        (&first["run_now"], &first["done_before"]),
+        (&first["runs"], &0.into())
+    );
     assert_eq!(run("6")["run_now"], 0);
     run("3");
     assert_eq!(run("6")["run_now"], 0);
+}
+
+/// Which pairs there are follows from the first runs, for each process alike.
+#[test]
+fn processes_share_an_ablation_with_pairs() {
+    let place = Workplace::new();
+    // Turning air makes friction matter, too.
+    let air = "[drag]\nlaw = \"cross-section\"\nlinear = 30.0\n[swirl]\nomega = 20.0\n[tank]";
+    place.write("scene.toml", &SCENE.replace("[tank]", air));
+    let command = [
+        "study",
+        "scene.toml",
+        "--ablate",
+        "--seeds",
+        "8",
+        "--no-plot",
+        "--json",
+        "-j",
+        "1",
+    ];
+    let children: Vec<_> = (0..2).map(|_| place.start(&command)).collect();
+    let answers = children.into_iter().map(|child| {
+        let answer = end(child);
+        assert_eq!(answer.code, Some(0), "{}{}", answer.stdout, answer.stderr);
+        serde_json::from_str(&answer.stdout).unwrap()
+    });
+    let answers: Vec<Value> = answers.collect();
+    let [one, other] = &answers[..] else {
+        panic!("{answers:?}")
+    };
+    assert_eq!(one["finding"], other["finding"]);
+    let made = |answer: &Value| answer["run_now"].as_u64().unwrap();
+    assert_eq!(made(one) + made(other), one["runs"].as_u64().unwrap());
+    let names = one["finding"]["ablated"].as_array().unwrap().iter();
+    let mut names = names.map(|it| it["name"].as_str().unwrap());
+    assert!(names.any(|name| name.contains(" and ")), "{one:#}");
 }
 
 #[test]
@@ -176,10 +217,52 @@ fn a_file_or_an_option_asks_for_an_ablation() {
         .complains("--ablate=air: no simplification has that word in its name")
         .complains("spin damping off");
 
+    // Symptom: all effects were taken away.
+    place
+        .phase(&["study", "scene.toml", "--ablate="])
+        .code(2)
+        .complains("leave out `=` for all of them");
+    // Symptom: the runs of the scene as it is were made, and then there was nothing to draw.
+    place
+        .phase(&["study", "scene.toml", "--ablate=gravity"])
+        .code(2)
+        .complains("scene.toml: nothing of the scene can be switched off; gravity off: ");
+    assert!(!place.path("results").exists());
+
     let sweep = "study = \"ablation\"\nscene = \"scene.toml\"\nseeds.count = 3\n";
     place.write("sweep.toml", sweep);
     let whole = ["study", "sweep.toml", "--no-plot", "--no-pairs", "--json"];
     let of_file: Value = serde_json::from_str(&place.phase(&whole).code(0).stdout).unwrap();
+    // Symptom: of an ablation only its sweep was checked.
+    for check in [
+        &["check", "sweep.toml", "--no-trial", "--json"][..],
+        &[
+            "check",
+            "scene.toml",
+            "--ablate",
+            "--seeds",
+            "3",
+            "--no-trial",
+            "--json",
+        ],
+    ] {
+        let checked: Value = serde_json::from_str(&place.phase(check).code(0).stdout).unwrap();
+        let seeds = checked["seeds"].as_array().unwrap().len() as u64;
+        assert_eq!(
+            (&checked["kind"], &checked["study"]),
+            (&"study".into(), &"ablation".into())
+        );
+        let settings = checked["settings"].as_array().unwrap();
+        let ablated = of_file["finding"]["ablated"].as_array().unwrap();
+        let names = ablated.iter().map(|it| &it["name"]);
+        assert!(settings[1..].iter().map(|it| &it["name"]).eq(names));
+        assert_eq!(checked["skipped"][0], "gravity off");
+        // Without --seeds at least five.
+        assert_eq!(
+            checked["jobs"].as_u64().unwrap() * 5,
+            of_file["runs"].as_u64().unwrap() * seeds
+        );
+    }
     let one = [
         "study",
         "sweep.toml",

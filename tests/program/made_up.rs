@@ -18,6 +18,7 @@ pub(crate) fn sweep(title: &str, scene: Scene, axes: Vec<Axis>, seeds: &[u64]) -
         axes,
         seeds: seeds.to_vec(),
         refine: None,
+        study: None,
         sieves: Sieves::default(),
         plot: PlotSettings::default(),
     }

@@ -43,6 +43,7 @@ mod silo_figures;
 mod silo_sweep;
 mod spot;
 mod stability_study;
+mod studies;
 mod suggestions;
 #[path = "../support/mod.rs"]
 mod support;

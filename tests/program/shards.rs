@@ -40,7 +40,7 @@ fn shards_make_the_runs_of_a_sweep() {
     shard("1/3")
         .code(0)
         .says("2 jobs: 2 run now")
-        .says("4 jobs left to other shards: the last one labels the runs and draws the figures");
+        .says("4 jobs left to other shards, of which the last one writes tables and figures");
     shard("3/3").code(0).says("2 jobs left to other shards");
     // Again, there is nothing to do.
     shard("3/3").code(0).says("2 jobs: 0 run now");

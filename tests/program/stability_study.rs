@@ -5,9 +5,9 @@ use crate::support::Workplace;
 use phase::classify::Label;
 use phase::dem::timestep::largest_stable;
 use phase::scene::Scene;
-use phase::study::comparison::{KnownRuns, RunRow, StudyReport, StudyRuns, read_runs};
+use phase::study::comparison::{RunRow, RunTable};
 use phase::study::stability::{self, StabilityStudy};
-use phase::sweep::{Event, Folder, LocalThreads, Wishes};
+use phase::sweep::{Event, Folder, LocalThreads, Plan, Pool, Report, Wishes};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
@@ -18,33 +18,42 @@ fn study(text: &str) -> StabilityStudy {
 /// The rows of all runs, in the order of the jobs.
 fn run(study: &StabilityStudy) -> Vec<RunRow> {
     let place = tempfile::tempdir().unwrap();
-    let report = run_into(study, place.path(), KnownRuns::default());
-    report.rows.into_iter().flatten().collect()
+    let (table, _) = run_into(study, place.path(), Wishes::default());
+    table.rows.into_iter().flatten().collect()
 }
 
-fn run_into(study: &StabilityStudy, folder: &Path, known: KnownRuns) -> StudyReport {
-    let runs = StudyRuns {
-        comparison: &study.comparison,
-        folder: &Folder::new(folder),
-        backend: &LocalThreads::new(2),
-        wishes: Wishes {
-            stop: &AtomicBool::new(false),
-            resume: true,
-            watch: &|_| {},
-        },
+/// Makes the runs that have neither a row nor a record in a folder, and writes its table.
+fn run_into(study: &StabilityStudy, folder: &Path, wishes: Wishes<'_>) -> (RunTable, Report) {
+    let (comparison, folder) = (&study.comparison, Folder::new(folder));
+    folder.create().unwrap();
+    let mut table = RunTable::read(comparison, &folder).unwrap();
+    let plan = table.applied_to(Plan::new(&folder, comparison.jobs.clone(), 2).unwrap());
+    let threads = LocalThreads::new(1);
+    let pool = Pool {
+        wishes,
+        ..Pool::new(&folder, &comparison.sweep, &threads)
     };
-    runs.run(known).unwrap()
+    let report = pool.run(&plan).unwrap();
+    table.add_records(comparison, &folder, 2).unwrap();
+    table.write(comparison, &folder).unwrap();
+    (table, report)
 }
 
-fn read(study: &StabilityStudy, folder: &Path) -> KnownRuns {
-    read_runs(&study.comparison, &StudyRuns::table(&Folder::new(folder))).unwrap()
+/// The rows of the table of a folder, in the order of the jobs.
+fn read(study: &StabilityStudy, folder: &Path) -> Vec<RunRow> {
+    let table = RunTable::read(&study.comparison, &Folder::new(folder)).unwrap();
+    table.rows.into_iter().flatten().collect()
 }
 
 /// The scene of the runs of an integrator at a point.
-fn scene_at(study: &StabilityStudy, integrator: &str, values: [f64; 2]) -> Scene {
+fn scene_at(study: &StabilityStudy, integrator: &str, [x, y]: [f64; 2]) -> Scene {
     let mut settings = study.comparison.settings.iter();
-    let setting = settings.find(|it| it.name == integrator).unwrap();
-    study.frames.scene_at(&setting.sweep, &values).unwrap()
+    let place = settings.position(|it| it.name == integrator).unwrap();
+    study
+        .comparison
+        .sweep
+        .scene_at(&[x, y, place as f64])
+        .unwrap()
 }
 
 /// The largest stable and the least other step of an integrator at a value of the second axis.
@@ -205,32 +214,26 @@ fn a_study_that_is_stopped_goes_on_where_it_was() {
     for folder in [&whole, &cut] {
         std::fs::create_dir(folder).unwrap();
     }
-    let expected = run_into(&study, &whole, KnownRuns::default());
-    assert_eq!((expected.made.finished, expected.made.left), (12, 0));
+    let (_, expected) = run_into(&study, &whole, Wishes::default());
+    assert_eq!((expected.finished, expected.left), (12, 0));
 
     let (stop, ended) = (AtomicBool::new(false), AtomicUsize::new(0));
-    let stopping = StudyRuns {
-        comparison: &study.comparison,
-        folder: &Folder::new(&cut),
-        backend: &LocalThreads::new(1),
-        wishes: Wishes {
-            stop: &stop,
-            resume: true,
-            watch: &|event| {
-                let is_end = matches!(event, Event::Finished(..));
-                if is_end && ended.fetch_add(1, Ordering::Relaxed) == 4 {
-                    stop.store(true, Ordering::Relaxed);
-                }
-            },
+    let stopping = Wishes {
+        stop: &stop,
+        resume: true,
+        watch: &|event| {
+            let is_end = matches!(event, Event::Finished(..));
+            if is_end && ended.fetch_add(1, Ordering::Relaxed) == 4 {
+                stop.store(true, Ordering::Relaxed);
+            }
         },
     };
-    let made = stopping.run(KnownRuns::default()).unwrap().made;
+    let (_, made) = run_into(&study, &cut, stopping);
     assert_eq!((made.finished, made.left), (5, 7));
-    let known = read(&study, &cut);
-    assert_eq!((known.rows.len(), known.makers.len()), (5, 5));
+    assert_eq!(read(&study, &cut).len(), 5);
 
-    let report = run_into(&study, &cut, known);
-    assert_eq!((report.known, report.made.finished), (5, 7));
+    let (_, rest) = run_into(&study, &cut, Wishes::default());
+    assert_eq!((rest.finished, rest.left), (7, 0));
     let but_times = |rows: Vec<RunRow>| {
         let rows = rows.into_iter();
         let rows = rows.map(|row| RunRow {
@@ -239,7 +242,7 @@ fn a_study_that_is_stopped_goes_on_where_it_was() {
         });
         rows.collect::<Vec<_>>()
     };
-    let [whole, cut] = [whole, cut].map(|it| but_times(read(&study, &it).rows));
+    let [whole, cut] = [whole, cut].map(|it| but_times(read(&study, &it)));
     assert_eq!(whole.len(), 12);
     assert_eq!(whole, cut);
 }
@@ -305,7 +308,7 @@ fn a_table_that_is_none_is_refused() {
 
 /// The rows of a published study, in the order of the jobs.
 fn published(study: &StabilityStudy, name: &str) -> Vec<RunRow> {
-    read(study, &Path::new("results/stability").join(name)).rows
+    read(study, &Path::new("results/stability").join(name))
 }
 
 /// Part of the published cradle, made again.
@@ -381,7 +384,13 @@ fn rows_of_another_study_are_not_lost() {
     let run = ["study", "drop.toml", "--no-plot"];
     place.phase(&run).code(0);
     place.write("drop.toml", &TINY.replace("1e-2]", "2e-2]"));
-    place.phase(&run).code(0).says("12 runs: 4 made now");
+    place
+        .phase(&run)
+        .code(0)
+        .says("12 runs: 4 made now")
+        .complains(
+            "runs.csv keeps 4 rows of settings, points or seeds that the study does not have",
+        );
     place.write("drop.toml", TINY);
     place.phase(&run).code(0).says("12 runs: 0 made now");
 
@@ -395,9 +404,10 @@ fn rows_of_another_study_are_not_lost() {
     place.phase(&[&run[..], &["--force"]].concat()).code(0);
 }
 
-/// Symptom: rows of any build were taken over without a word.
+/// Symptom: rows of any build were taken over without a word. A record says which build made it;
+/// of a row alone that is unknown.
 #[test]
-fn rows_of_another_build_are_told_of_until_they_are_made_anew() {
+fn rows_of_an_unknown_build_are_told_of_until_they_are_made_anew() {
     let place = Workplace::new();
     place.write("drop.toml", TINY);
     let again = ["study", "drop.toml", "--no-plot"];
@@ -405,20 +415,12 @@ fn rows_of_another_build_are_told_of_until_they_are_made_anew() {
         |answer: crate::support::Answer| assert!(!answer.stderr.contains("made by"), "{answer:?}");
     place.phase(&again).code(0);
     quiet(place.phase(&again).code(0));
-
-    let path = "results/stability/drop/runs.makers.csv";
-    let mut makers: Vec<String> = place.read(path).lines().map(str::to_owned).collect();
-    for row in &mut makers[1..4] {
-        let id = row.split(',').next().unwrap();
-        *row = format!("{id},0.0.9,abc123");
-    }
-    makers.remove(4);
-    place.write(path, &(makers.join("\n") + "\n"));
+    let record = place.records("results/stability/drop")[0].clone();
+    std::fs::remove_file(place.path(&format!("results/stability/drop/records/{record}"))).unwrap();
     for _ in 0..2 {
         place
             .phase(&again)
             .code(0)
-            .complains("3 rows were made by version 0.0.9 (commit abc123); --force runs them again")
             .complains("1 row was made by an unknown version; --force runs it again");
     }
     place.phase(&[&again[..], &["--force"]].concat()).code(0);
@@ -432,8 +434,8 @@ fn check_says_what_a_study_would_run() {
     place
         .phase(&["check", "drop.toml"])
         .code(0)
-        .says("A drop: a study of stability, 12 runs")
-        .says("of the limit in 6 runs (adaptive-verlet)")
+        .says("A drop: a study of stability, 2 settings with 1 seed at 6 points, 12 runs in all")
+        .says("adaptive-verlet: 6 runs, steps at ")
         .says("at most about");
     // One with no key that a sweep has not, but steps above the limit.
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/sweeps/stability/cradle.toml");
@@ -443,5 +445,5 @@ fn check_says_what_a_study_would_run() {
     let answer: serde_json::Value = serde_json::from_str(&answer.stdout).unwrap();
     assert_eq!(answer["kind"], "study");
     assert_eq!(answer["jobs"], 4 * 31 * 13);
-    assert!(answer["integrators"][0]["largest_ratio"].as_f64().unwrap() > 1.0);
+    assert!(answer["settings"][0]["largest_ratio"].as_f64().unwrap() > 1.0);
 }

@@ -1,26 +1,24 @@
 //! `phase check`: validates a file and says what would run.
 
-mod accuracy;
 mod answer;
 mod describe;
-mod stability;
+mod study;
 mod walls;
 
 use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
-use crate::cli::options::Workers;
+use crate::cli::options::{Ablate, Workers};
 use crate::cli::time_step::{self, Tightest, tightest_limits};
 use crate::cli::values;
 use crate::cli::{format, job, labels, overlaps};
 use answer::{Answer, ForecastAnswer};
-use describe::{describe_grid, describe_sweep, effects, line};
-use phase::cost::{Forecast, Leaves, forecast};
+use describe::{describe_sweep, effects, line};
+use phase::cost::{self, Forecast};
 use phase::dem::timestep::{Limit, StepMargin};
-use phase::document::LoadError;
 use phase::grid::{Axis, describe as describe_point};
 use phase::run::Edits;
 use phase::scene::{FileKind, Scene};
-use phase::study::{AnyFile, AnyStudy};
+use phase::study::AnyFile;
 use phase::sweep::{Job, Sweep};
 use std::path::PathBuf;
 use std::time::Duration;
@@ -41,11 +39,14 @@ pub(crate) struct Arguments {
     file: PathBuf,
     #[command(flatten)]
     workers: Workers,
+    #[command(flatten)]
+    ablate: Ablate,
     /// Set a key of the scene, as in `phase run`; may be given several times.
     #[arg(long, value_name = "KEY=VALUE", value_parser = values::setting)]
+    #[arg(conflicts_with_all = ["ablate", "seeds"])]
     set: Vec<String>,
     /// Remove a table or key from the scene, as in `phase run`; may be given several times.
-    #[arg(long, value_name = "KEY")]
+    #[arg(long, value_name = "KEY", conflicts_with_all = ["ablate", "seeds"])]
     without: Vec<String>,
     /// Only validate, without trial and forecast.
     #[arg(long)]
@@ -57,16 +58,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     let (sweep, kind) = match arguments.load()? {
         AnyFile::Scene(scene) => (Sweep::of_scene(*scene), FileKind::Scene),
         AnyFile::Sweep(sweep) => (*sweep, FileKind::Sweep),
-        AnyFile::Study(AnyStudy::Stability(study)) => {
-            return stability::main(&study, arguments, workers, console);
-        }
-        AnyFile::Study(AnyStudy::Accuracy(study)) => {
-            return accuracy::main(&study, arguments, workers, console);
-        }
-        // The file of an ablation is one of a sweep.
-        AnyFile::Study(AnyStudy::Ablation(study)) => {
-            (study.comparison.settings[0].sweep.clone(), FileKind::Sweep)
-        }
+        AnyFile::Study(study) => return study::main(&study, arguments, workers, console),
     };
     let jobs = sweep.jobs()?;
     if kind == FileKind::Sweep {
@@ -108,11 +100,9 @@ fn try_jobs(
 ) -> Result<Forecast, Failure> {
     // A silo ends its run when it is empty.
     let may_end = jobs.iter().any(|job| job.scene.has_flow());
-    let forecast = print_forecast(jobs, workers, may_end, Leaves::Records, console)?;
-    if let Some(disk) = forecast.disk {
-        let about = format!("about {}", format::bytes(disk));
-        console.result(line("  disk", about));
-    }
+    start_of_trial(console);
+    let forecast = cost::forecast(jobs, workers, TRIAL_TIME)?;
+    print_forecast(&forecast, jobs, workers, may_end, console);
     if let Some(settings) = &sweep.refine {
         let all = sweep.points().saturating_mul(settings.replicates as usize);
         let budget = settings.budget.min(all);
@@ -127,9 +117,12 @@ fn try_jobs(
 
 impl Arguments {
     /// The file; of a scene with the keys that are to be set or left out.
-    fn load(&self) -> Result<AnyFile, LoadError> {
+    fn load(&self) -> Result<AnyFile, Failure> {
+        if self.ablate.is_given() {
+            return Ok(AnyFile::Study(self.ablate.load(&self.file, None, &[])?));
+        }
         if self.set.is_empty() && self.without.is_empty() {
-            return AnyFile::load(&self.file);
+            return Ok(AnyFile::load(&self.file)?);
         }
         let edits = Edits {
             set: &self.set,
@@ -174,16 +167,18 @@ fn describe_limit(tightest: &Tightest<'_>, axes: &[Axis], explain: bool) -> Stri
     text
 }
 
-/// Prints time and memory; `may_end` if runs may end before their time.
+fn start_of_trial(console: &Console) {
+    console.note("running the first part of a few jobs ...");
+}
+
+/// Prints time, memory and space; `may_end` if runs may end before their time.
 fn print_forecast(
+    forecast: &Forecast,
     jobs: &[Job],
     workers: usize,
     may_end: bool,
-    leaves: Leaves,
     console: &Console,
-) -> Result<Forecast, Failure> {
-    console.note("running the first part of a few jobs ...");
-    let forecast = forecast(jobs, workers, TRIAL_TIME, leaves)?;
+) {
     console.result(line(
         "forecast",
         format_args!(
@@ -206,7 +201,10 @@ fn print_forecast(
         "  memory",
         format_args!("about {}", format::bytes(forecast.memory)),
     ));
-    Ok(forecast)
+    console.result(line(
+        "  disk",
+        format_args!("about {}", format::bytes(forecast.disk)),
+    ));
 }
 
 /// Time for the trial, about.

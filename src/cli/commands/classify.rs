@@ -7,7 +7,7 @@ mod edited;
 use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::folders::{self, Entry, Undone};
-use crate::cli::labels::{Summary, cannot_label, cannot_write, label_folder};
+use crate::cli::labels::{OF_STUDY, Summary, cannot_label, cannot_write, label_folder};
 use crate::cli::options::Workers;
 use phase::sweep::{Folder, Job, LabellingError, Sweep, refuse_to_lose_labels};
 use serde::Serialize;
@@ -94,6 +94,9 @@ fn jobs_to_label(folder: &Folder, sweep: &Sweep) -> Result<Vec<Job>, Failure> {
 /// published results, the labels are kept.
 fn sweep_with_records(folder: &Folder) -> Result<Sweep, Undone> {
     let sweep = folder.read_sweep()?;
+    if sweep.study.is_some() {
+        return Err(Undone::Kept(Failure::refused(OF_STUDY).at(folder.root())));
+    }
     match refuse_to_lose_labels(folder, []) {
         Ok(()) => Ok(sweep),
         Err(error @ LabellingError::Lost { rows, lost, .. }) if rows == lost => {

@@ -4,7 +4,7 @@ use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::options::Workers;
 use crate::cli::{cluster, folders, values};
-use phase::sweep::{Folder, Next, Shard};
+use phase::sweep::{Folder, NextJobs, Shard};
 use serde::Serialize;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -41,7 +41,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     let root = arguments.out.clone();
     let folder = Folder::new(root.unwrap_or_else(|| folders::default_folder(&arguments.file)));
     let workers = arguments.workers.count();
-    let next = Next::new(&folder, &sweep, workers)?;
+    let next = NextJobs::new(&folder, &sweep, workers)?;
     let places = match arguments.missing {
         true => next.missing.clone(),
         false => (0..next.jobs.len()).collect(),

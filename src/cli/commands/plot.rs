@@ -7,6 +7,7 @@ use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::figures::drawn;
 use crate::cli::folders::{self, Entry};
+use crate::cli::labels;
 use crate::cli::options::Measured;
 use crate::cli::runs::check_labels;
 use folder::{FitEntry, FolderAnswer};
@@ -188,7 +189,7 @@ impl Answer {
         let found = Folder::find(dir)?;
         self.folders = folders::go_through(dir, found, console, |folder| {
             let sweep = folder.read_sweep()?;
-            let table = folder::read_labels(folder)?.with_variants(sweep.variants());
+            let table = labels::read(folder)?.with_variants(sweep.variants());
             for (figure, is_drawn) in is_drawn.iter_mut().filter(|(_, is_drawn)| !is_drawn) {
                 let of_folder = (folder, &sweep, &table);
                 *is_drawn = drawn(figure.name, of_folder, (&[], None)).is_ok();

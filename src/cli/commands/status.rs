@@ -8,7 +8,7 @@ use crate::cli::options::Workers;
 use crate::cli::{format, refined};
 use phase::grid::{Axis, describe};
 use phase::refine::Finish;
-use phase::store::{Holder, Process};
+use phase::store::{Holder, ProcessIdentity};
 use phase::sweep::{Claimed, Folder, Plan, Refining, Status, Sweep, UnderWay, work};
 use serde::Serialize;
 use serde_json::Value;
@@ -284,7 +284,7 @@ fn text(status: &Status, axes: &[Axis], workers: usize) -> String {
 /// Who is at work, with how many runs, and what dead processes have left.
 fn describe_running(processes: &[Holder], claimed: &[Claimed]) -> String {
     let held = claimed.iter().filter(|run| !run.is_stale);
-    let held: Vec<Option<&Process>> = held
+    let held: Vec<Option<&ProcessIdentity>> = held
         .map(|run| run.holder.as_ref().map(|it| &it.process))
         .collect();
     let mut text = match processes.len() {

@@ -5,16 +5,18 @@ mod accuracy;
 mod runs;
 mod stability;
 
-use crate::cli::builds;
 use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::figures;
+use crate::cli::options::{Ablate, Workers};
+use crate::cli::values;
 use phase::plot::{PlotError, Svg};
 use phase::store::{self, StoreError};
-use phase::study::ablation::{AblationError, AblationOptions};
-use phase::study::comparison::{Comparison, KnownRuns, RunRow, StudyReport, StudyRuns, read_runs};
+use phase::study::accuracy::Subject;
+use phase::study::comparison::{Comparison, RunRow, RunTable};
 use phase::study::{AnyStudy, StudyName};
-use runs::{Options, Place, Tally};
+use phase::sweep::Shard;
+use runs::{Place, Tally};
 use serde::Serialize;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -24,8 +26,8 @@ use std::path::{Path, PathBuf};
 /// The file names the study (`study = "..."`). `stability` finds where integrators are stable over
 /// two keys of a scene. `accuracy` measures what settings of a scene cost in time, and how wrong
 /// they are. `ablation` takes each effect of a sweep away by itself, or reduces it to a
-/// simpler law; --ablate does so for any scene or sweep. Runs that have a row in the table are not
-/// made again.
+/// simpler law; --ablate does so for any scene or sweep. Runs that have a row in the table or a
+/// record are not made again.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Examples: where do integrators break in Newton's cradle; how large may the time step of a collapse
@@ -34,21 +36,15 @@ be; which effects decide the published diagram?
   phase study sweeps/accuracy/collapse.toml
   phase study sweeps/theoretical-9x9.toml --ablate --seeds 5
 
-The results folder holds runs.csv (one row per run), runs.makers.csv (which build made each row),
-a table of settings if the study has one, a file of JSON with all that was found, and figures as SVG
-and PNG.")]
+The results folder holds sweep.json (the settings as the variants of a sweep), records/ (one HDF5
+file per run), runs.csv (one row per run), a table of settings if the study has one, a file of JSON
+with all that was found, and figures as SVG and PNG.
+Several processes may make the runs of one study in one folder.")]
 pub(crate) struct Arguments {
     /// The study file (TOML); with --ablate a scene or sweep file.
     file: PathBuf,
-    /// Take away the effects of a scene or sweep, one by one: all of them, or those whose names
-    /// hold one of these words.
-    #[arg(long, value_name = "WORDS", num_args = 0..=1, require_equals = true)]
-    #[arg(default_missing_value = "", value_delimiter = ',')]
-    ablate: Option<Vec<String>>,
-    /// Number of seeds at each point of an ablation [default: those of the sweep, or 5 if it has
-    /// fewer].
-    #[arg(short, long, value_name = "N", value_parser = three_or_more)]
-    seeds: Option<usize>,
+    #[command(flatten)]
+    ablate: Ablate,
     /// Share of the labels that may change without an effect that an ablation calls not needed
     /// [default: 0.05].
     #[arg(long, value_name = "SHARE", value_parser = share)]
@@ -56,17 +52,22 @@ pub(crate) struct Arguments {
     /// Take away one effect at a time only; else two that matter are taken away at once too.
     #[arg(long)]
     no_pairs: bool,
+    /// The results folder [default: results/STUDY/NAME, with the name of the study or command, and
+    /// that of the file without .toml].
+    #[arg(short, long, value_name = "DIR")]
+    out: Option<PathBuf>,
     #[command(flatten)]
-    options: Options,
-}
-
-fn three_or_more(text: &str) -> Result<usize, String> {
-    match text.parse() {
-        Ok(number) if (3..=10_000).contains(&number) => Ok(number),
-        _ => Err(
-            "must be a whole number from 3 to 10000: fewer seeds tell nothing from noise".into(),
-        ),
-    }
+    workers: Workers,
+    /// Make every run again, whatever the results folder holds.
+    #[arg(short, long)]
+    force: bool,
+    /// Make one of N parts of equal work, in any number of processes on any machines: I/N, or `auto`
+    /// for the task of a Slurm array. The last one says what follows.
+    #[arg(long, value_name = "I/N", value_parser = values::part, conflicts_with = "force")]
+    shard: Option<Shard>,
+    /// Draw no figure.
+    #[arg(long)]
+    no_plot: bool,
 }
 
 fn share(text: &str) -> Result<f64, String> {
@@ -77,17 +78,24 @@ fn share(text: &str) -> Result<f64, String> {
 }
 
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
-    match arguments.load()? {
+    let given = [
+        ("--tolerance", arguments.tolerance.is_some()),
+        ("--no-pairs", arguments.no_pairs),
+    ];
+    let study = arguments
+        .ablate
+        .load(&arguments.file, arguments.tolerance, &given)?;
+    match study {
         AnyStudy::Stability(study) => arguments.run(*study, console),
-        AnyStudy::Ablation(study) => arguments.run((*study, !arguments.no_pairs), console),
-        AnyStudy::Accuracy(study) => match accuracy::Compared::of(*study) {
-            Ok(study) => arguments.run(study, console),
-            Err(cases) => cases.run(arguments, console),
+        AnyStudy::Ablation(study) => arguments.run(*study, console),
+        AnyStudy::Accuracy(study) => match &study.subject {
+            Subject::Scene(comparison) => arguments.run((&*study, &**comparison), console),
+            Subject::Case(settings) => accuracy::run_cases(&study, settings, arguments, console),
         },
     }
 }
 
-/// A study of some kind.
+/// A study of some kind: from the table of its runs a finding and figures follow.
 trait Study: Sized {
     /// Which kind.
     const NAME: StudyName;
@@ -100,7 +108,7 @@ trait Study: Sized {
     /// Says what is not run, and why.
     fn note_skipped(&self, _: &Console) {}
 
-    /// The study with more runs, if these rows ask for them.
+    /// The study with the runs that follow from these rows, if there may be such.
     fn extended(&self, _: &[Option<RunRow>]) -> Result<Option<Self>, Failure> {
         Ok(None)
     }
@@ -117,85 +125,48 @@ struct Conclusion {
     text: String,
     /// Writes the table of settings, if the study has one.
     table: Option<Write>,
-    figures: Vec<(String, Result<Svg, PlotError>)>,
+    figures: Vec<NamedFigure>,
 }
+
+/// A figure with the name of its files, or why it cannot be drawn.
+type NamedFigure = (String, Result<Svg, PlotError>);
 
 /// Writes a file.
 type Write = Box<dyn FnOnce(&Path) -> Result<(), StoreError>>;
 
 impl Arguments {
-    fn load(&self) -> Result<AnyStudy, Failure> {
-        let words = self.ablate.iter().flatten();
-        let options = AblationOptions {
-            seeds: self.seeds,
-            tolerance: self.tolerance.unwrap_or(0.05),
-            effects: words.filter(|it| !it.is_empty()).cloned().collect(),
-        };
-        let study = AnyStudy::load(&self.file, self.ablate.is_some(), options);
-        let study = study.map_err(|error: AblationError| Failure::refused(error))?;
-        let given = [
-            ("--seeds", self.seeds.is_some()),
-            ("--tolerance", self.tolerance.is_some()),
-            ("--no-pairs", self.no_pairs),
-        ];
-        match given.iter().find(|(_, is_given)| *is_given) {
-            Some((option, _)) if !matches!(study, AnyStudy::Ablation(_)) => {
-                Err(Failure::refused(format_args!(
-                    "{option} is of ablations; this study says it in {}",
-                    self.file.display()
-                )))
-            }
-            _ => Ok(study),
-        }
-    }
-
-    /// The folder of a study with figures of these names.
-    fn place(
-        &self,
-        study: StudyName,
-        figures: &[String],
-        console: &Console,
-    ) -> Result<Place, Failure> {
-        let name = study.name();
-        let tables = ["runs", "runs.makers", name].map(|it| format!("{it}.csv"));
-        let files = tables.into_iter().chain([format!("{name}.json")]);
-        Place::open(name, &self.file, &self.options, files, figures, console)
-    }
-
     fn run<S: Study>(&self, mut study: S, console: &Console) -> Result<Exit, Failure> {
-        let place = self.place(S::NAME, &study.figures(), console)?;
+        let place = Place::open(
+            self,
+            S::NAME,
+            &study.figures(),
+            Some(study.comparison()),
+            console,
+        )?;
         study.note_skipped(console);
-        let known = match self.options.force {
-            true => KnownRuns::default(),
-            false => known_runs(&study, &place)?,
+        let table = match self.force {
+            true => RunTable::new(study.comparison()),
+            false => known_rows(&study, &place)?,
         };
-        let (mut report, mut tally) = self.make(&study, known, &place, console)?;
-        if tally.left == 0
-            && let Some(more) = study.extended(&report.rows)?
+        let (mut table, mut tally) = place.make(study.comparison(), self, table, console)?;
+        if tally.is_whole()
+            && !self.no_pairs
+            && let Some(more) = study.extended(&table.rows)?
         {
-            let known = known_runs(&more, &place)?;
-            (report, tally) = self.make(&more, known, &place, console)?;
-            study = more;
+            let known = known_rows(&more, &place)?;
+            let (all, of_all) = place.make(more.comparison(), self, known, console)?;
+            (study, table, tally) = (more, all, tally.and(of_all));
         }
-        console.file(&StudyRuns::table(&place.folder));
-        let finding = match tally.left {
-            0 => Some(self.keep(S::NAME, study.conclude(&report.rows)?, &place, console)?),
-            _ => None,
+        tally.print(console);
+        if tally.left_to_others == 0 {
+            tell_of_others(&table, &place, console);
+            console.file(&place.folder.runs());
+        }
+        let finding = match tally.is_whole() {
+            true => Some(self.keep(S::NAME, study.conclude(&table.rows)?, &place, console)?),
+            false => None,
         };
         Ok(answer(tally, finding, console))
-    }
-
-    /// Makes what is left of the runs, and says what became of them.
-    fn make<S: Study>(
-        &self,
-        study: &S,
-        known: KnownRuns,
-        place: &Place,
-        console: &Console,
-    ) -> Result<(StudyReport, Tally), Failure> {
-        let makers = known.rows.iter().map(|row| known.makers.get(&row.id));
-        builds::tell_of_others("row", makers, console);
-        runs::make(study.comparison(), &self.options, place, known, console)
     }
 
     /// Prints what was found and writes its files; returns it as JSON.
@@ -210,16 +181,16 @@ impl Arguments {
         let name = study.name();
         if let Some(write) = found.table {
             let path = place.file(&format!("{name}.csv"));
-            write(&path).map_err(Failure::failed)?;
+            write(&path)?;
             console.file(&path);
         }
         let path = place.file(&format!("{name}.json"));
         let bytes = serde_json::to_vec_pretty(&found.json).map_err(Failure::failed)?;
-        store::write_atomic(&path, &bytes).map_err(Failure::failed)?;
+        store::write_atomic(&path, &bytes)?;
         console.file(&path);
         let mut written = Ok(());
         for (name, figure) in found.figures {
-            if self.options.no_plot {
+            if self.no_plot {
                 break;
             }
             let path = |end: &str| place.file(&format!("{name}.{end}"));
@@ -232,10 +203,23 @@ impl Arguments {
     }
 }
 
-/// The runs that the table of a folder has already.
-fn known_runs<S: Study>(study: &S, place: &Place) -> Result<KnownRuns, Failure> {
-    let table = StudyRuns::table(&place.folder);
-    read_runs(study.comparison(), &table).map_err(Failure::refused)
+/// The rows that the table of a folder has already.
+fn known_rows<S: Study>(study: &S, place: &Place) -> Result<RunTable, Failure> {
+    RunTable::read(study.comparison(), &place.folder).map_err(Failure::refused)
+}
+
+/// Says which rows of the table are not of the study.
+fn tell_of_others(table: &RunTable, place: &Place, console: &Console) {
+    let (rows, them) = match table.others.len() {
+        0 => return,
+        1 => ("1 row".to_owned(), "it"),
+        rows => (format!("{rows} rows"), "them"),
+    };
+    console.note(format_args!(
+        "{} keeps {rows} of settings, points or seeds that the study does not have; --force drops \
+         {them}",
+        place.folder.runs().display()
+    ));
 }
 
 fn answer(tally: Tally, finding: Option<Value>, console: &Console) -> Exit {

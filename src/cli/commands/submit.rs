@@ -8,7 +8,7 @@ use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::{cluster, folders, format, values};
 use phase::store;
-use phase::sweep::{Folder, Next, Shard};
+use phase::sweep::{Folder, NextJobs, Shard};
 use serde::Serialize;
 use std::ffi::OsStr;
 use std::fs;
@@ -33,7 +33,7 @@ pub(crate) struct Arguments {
     file: PathBuf,
     /// The batch system.
     #[arg(long, value_name = "SYSTEM")]
-    to: System,
+    to: BatchSystem,
     /// The results folder [default: results/NAME, the sweep file's name without .toml].
     #[arg(short, long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -55,16 +55,16 @@ pub(crate) struct Arguments {
 }
 
 #[derive(Clone, Copy, clap::ValueEnum)]
-enum System {
+enum BatchSystem {
     Slurm,
     Hyperqueue,
     Row,
 }
 
 /// What is handed over.
-struct Order<'a> {
+struct Handover<'a> {
     arguments: &'a Arguments,
-    next: Next,
+    next: NextJobs,
     /// Name of the sweep.
     name: String,
     /// Processor time of what is missing, and of all jobs (s).
@@ -96,7 +96,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     let root = arguments.out.clone();
     let root = root.unwrap_or_else(|| folders::default_folder(&arguments.file));
     let folder = Folder::new(&root);
-    let next = Next::new(&folder, &sweep, arguments.jobs)?;
+    let next = NextJobs::new(&folder, &sweep, arguments.jobs)?;
     if next.missing.is_empty() {
         console.result(format_args!(
             "no run is missing; `phase sweep {}` labels the runs and draws the figures",
@@ -106,12 +106,12 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         return Ok(Exit::Done);
     }
     folder.create()?;
-    let order = Order::new(arguments, &folder, next)?;
+    let order = Handover::new(arguments, &folder, next)?;
     fs::create_dir_all(&order.place).map_err(|it| cannot_write(&order.place, &it))?;
     let submission = match arguments.to {
-        System::Slurm => slurm::write(&order)?,
-        System::Hyperqueue => hyperqueue::write(&order)?,
-        System::Row => row::write(&order)?,
+        BatchSystem::Slurm => slurm::write(&order)?,
+        BatchSystem::Hyperqueue => hyperqueue::write(&order)?,
+        BatchSystem::Row => row::write(&order)?,
     };
     for file in &submission.files {
         console.file(file);
@@ -178,8 +178,8 @@ fn submit(commands: &[Vec<String>], console: &Console) -> Result<Vec<String>, Fa
     Ok(names)
 }
 
-impl<'a> Order<'a> {
-    fn new(arguments: &'a Arguments, folder: &Folder, next: Next) -> Result<Self, Failure> {
+impl<'a> Handover<'a> {
+    fn new(arguments: &'a Arguments, folder: &Folder, next: NextJobs) -> Result<Self, Failure> {
         let forecast = cluster::forecast(&next, &next.missing)?;
         let work = |places: &mut dyn Iterator<Item = usize>| -> u64 {
             places.map(|place| next.jobs[place].work()).sum()

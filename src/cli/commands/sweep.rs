@@ -1,12 +1,12 @@
 //! `phase sweep`: runs the jobs of a sweep, labels them, draws the figures.
 
 mod refining;
-mod rounds;
 
 use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::job::NamedJob;
 use crate::cli::options::Workers;
+use crate::cli::rounds::{Rounds, Run};
 use crate::cli::values;
 use crate::cli::{figures, labels};
 use crate::cli::{folders, format, interrupt, overlaps, refined, time_step};
@@ -16,7 +16,6 @@ use phase::store::{self, Holder, Lease};
 use phase::sweep::{
     Access, Folder, Job, Plan, Shard, Sweep, differing_keys, refuse_to_lose_labels,
 };
-use rounds::{Rounds, Run};
 use serde::Serialize;
 use std::collections::HashSet;
 use std::path::PathBuf;
@@ -97,21 +96,21 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         stop,
         checkpoint_interval: arguments.checkpoint_interval.unwrap_or(DEFAULT_INTERVAL),
         force: arguments.force,
-        draws: !arguments.no_plot,
         shard: arguments.shard.as_ref().or(arguments.job.as_ref()),
         console,
     };
     let (plan, run, refinement) = match sweep.refine {
         None => {
-            let (plan, run) = rounds.run(&sweep, jobs)?;
+            let plan = rounds.plan(jobs)?;
+            let run = rounds.run(&sweep, &plan)?;
             (plan, run, None)
         }
         Some(_) => {
-            let (plan, run, refinement) = rounds.refine(&sweep)?;
+            let (plan, run, refinement) = refining::refine(&rounds, &sweep, !arguments.no_plot)?;
             (plan, run, Some(refinement))
         }
     };
-    run.print(&plan, &sweep, console)?;
+    run.print(&plan, &sweep, console);
     let jobs: Vec<Job> = plan.jobs.iter().map(|(job, _)| job.clone()).collect();
     let mut answer = Answer::new(&folder, &plan, &sweep, &run);
     answer.refined =
@@ -287,10 +286,14 @@ fn check_kept_labels(folder: &Folder, sweep: &Sweep) -> Result<(), Failure> {
     }
 }
 
-/// Refuses a folder in which files of another program are in the way. One with the sweep.json of a
-/// sweep is a results folder, whatever it holds.
+/// Refuses a folder in which files of another program are in the way, or of a study. One with the
+/// sweep.json of a sweep is a results folder, whatever it holds.
 fn refuse_foreign(folder: &Folder, sweep: &Sweep, arguments: &Arguments) -> Result<(), Failure> {
     let root = folder.root();
+    if folder.read_sweep().is_ok_and(|it| it.study.is_some()) {
+        let message = "this folder holds the results of a study; choose another one with --out";
+        return Err(Failure::refused(message).at(root));
+    }
     if folder.sweep().exists() {
         return folders::refuse_foreign(root, ["sweep.json"], folders::ANOTHER_FOLDER);
     }

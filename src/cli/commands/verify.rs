@@ -250,6 +250,7 @@ fn write(
     let place = |end: &str| folder.join(format!("verification.{end}"));
     store::write_rows(rows, &place("csv"))?;
     console.file(&place("csv"));
-    let study = StudyResult::Verification(errors, &Program::current());
-    figures::write(&plot::draw("verification", study)?, place, console)
+    let study = StudyResult::Verification(errors);
+    let figure = plot::draw("verification", (study, &Program::current()))?;
+    figures::write(&figure, place, console)
 }

@@ -24,7 +24,7 @@ pub(super) fn draw(
     evaluation: &Evaluation,
     program: &Program,
 ) -> Result<Svg, PlotError> {
-    let sweep = &comparison.settings[comparison.reference].sweep;
+    let sweep = comparison.sweep_of(comparison.reference);
     let axis = |index| {
         let axis = GridAxis::over(index, &sweep.axes, &sweep.scene, std::iter::empty());
         axis.with(&sweep.plot)
@@ -101,7 +101,7 @@ fn cells(
     let columns = x.values.len();
     let mut cells = vec![None; columns * y.map_or(1, |axis| axis.values.len())];
     // The points of all settings have the places of those of the reference.
-    let sweep = &comparison.settings[comparison.reference].sweep;
+    let sweep = comparison.sweep_of(comparison.reference);
     for (values, point) in sweep.grid().zip(points) {
         let row = y.map_or(Some(0), |axis| axis.position(&values));
         let (Some(column), Some(row)) = (x.position(&values), row) else {

@@ -4,52 +4,46 @@ mod changes;
 mod step_time;
 mod work_precision;
 
-use super::svg::Svg;
-use super::{PlotError, PlotErrorKind};
-use crate::record::Program;
-use crate::study::accuracy::{AccuracyStudy, Evaluation};
-use crate::study::comparison::{Comparison, RunRow};
+use super::{Figure, StudyResult};
+use crate::study::accuracy::Subject;
 
-/// A figure with its name, or why it cannot be drawn.
-pub type Named = (String, Result<Svg, PlotError>);
-
-/// The names of the figures of every study.
-const NAMES: [&str; 2] = ["work-precision", "label-changes"];
-
-/// The names of the figures of a study.
-pub fn names(study: &AccuracyStudy) -> Vec<String> {
-    let times = study.step_time.iter().map(|x| step_time_of(x));
-    NAMES.map(str::to_owned).into_iter().chain(times).collect()
-}
-
-fn step_time_of(x: &str) -> String {
-    format!("step-time-{x}")
-}
-
-/// All figures that a study has: error against time, where labels change, and what steps cost. A
-/// figure of which nothing can be drawn, as no error is above zero, is left out.
-pub fn draw_all(
-    study: &AccuracyStudy,
-    comparison: Option<(&Comparison, &[Option<RunRow>])>,
-    evaluation: &Evaluation,
-    program: &Program,
-) -> Vec<Named> {
-    let drawn = work_precision::draw(study, evaluation, program);
-    let mut figures = vec![(NAMES[0].to_owned(), drawn)];
-    if let Some((comparison, rows)) = comparison {
-        if !comparison.axes().is_empty() && comparison.seeds() > 1 {
-            let drawn = changes::draw(study, comparison, evaluation, program);
-            figures.push((NAMES[1].to_owned(), drawn));
-        }
-        figures.extend(study.step_time.iter().map(|x| {
-            let drawn = step_time::draw(x, comparison, rows, program);
-            (step_time_of(x), drawn)
-        }));
-    }
-    figures.retain(
-        |(_, figure)| !matches!(figure, Err(error) if error.kind() == PlotErrorKind::Nothing),
-    );
-    figures
+/// All of them.
+pub(super) fn figures() -> [Figure; 3] {
+    [
+        Figure::of_study(
+            "work-precision",
+            "error of each setting against its processor time",
+            |study, program| match study {
+                StudyResult::Accuracy(study, found) => {
+                    Some(work_precision::draw(study, found, program))
+                }
+                _ => None,
+            },
+        ),
+        Figure::of_study(
+            "label-changes",
+            "labels that each setting changes, over the axes",
+            |study, program| match study {
+                StudyResult::Accuracy(study, found) => match &study.subject {
+                    Subject::Scene(comparison) => {
+                        Some(changes::draw(study, comparison, found, program))
+                    }
+                    Subject::Case(_) => None,
+                },
+                _ => None,
+            },
+        ),
+        Figure::of_study(
+            "step-time",
+            "processor time of a step per sphere, over an axis or a ladder",
+            |study, program| match study {
+                StudyResult::StepTimes(comparison, rows, x) => {
+                    Some(step_time::draw(x, comparison, rows, program))
+                }
+                _ => None,
+            },
+        ),
+    ]
 }
 
 /// Colour of a line by its number.

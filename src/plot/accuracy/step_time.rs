@@ -28,7 +28,7 @@ pub(super) fn draw(
     rows: &[Option<RunRow>],
     program: &Program,
 ) -> Result<Svg, PlotError> {
-    let sweep = &comparison.settings[comparison.as_it_is].sweep;
+    let sweep = comparison.sweep_of(comparison.as_it_is);
     let axis = sweep.axes.iter().position(|axis| axis.name == x);
     let (key, times) = match axis {
         Some(axis) => (
@@ -95,7 +95,8 @@ fn against_axis(axis: usize, comparison: &Comparison, rows: &[Option<RunRow>]) -
     let settings = comparison.settings.iter().enumerate();
     let line = |(place, setting): (usize, &Setting)| {
         let points = comparison.sample(place, rows).points;
-        let grid: Vec<Vec<f64>> = setting.sweep.grid().collect();
+        let sweep = comparison.sweep_of(place);
+        let grid: Vec<Vec<f64>> = sweep.grid().collect();
         let at = |&value: &f64| {
             let own = grid.iter().zip(&points);
             let own = own.filter(|(values, _)| values[axis] == value);
@@ -104,11 +105,7 @@ fn against_axis(axis: usize, comparison: &Comparison, rows: &[Option<RunRow>]) -
         };
         Times {
             name: setting.name.clone(),
-            points: setting.sweep.axes[axis]
-                .values
-                .iter()
-                .filter_map(at)
-                .collect(),
+            points: sweep.axes[axis].values.iter().filter_map(at).collect(),
         }
     };
     settings
@@ -130,7 +127,7 @@ fn against_ladder(
     });
     let mut rungs: Vec<_> = rungs.collect();
     rungs.sort_by(|(_, one, _), (_, other, _)| one.total_cmp(other));
-    let sweep = &comparison.settings[comparison.as_it_is].sweep;
+    let sweep = comparison.sweep_of(comparison.as_it_is);
     let line = |(point, values): (usize, Vec<f64>)| Times {
         name: describe_point(&sweep.axes, &values),
         points: rungs

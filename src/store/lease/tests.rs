@@ -7,10 +7,10 @@ const PATIENCE_HERE: Duration = Duration::from_millis(300);
 
 /// The leases of a process on a machine of that name.
 fn on(host: &str, clock: fn() -> SystemTime) -> Leases {
-    let process = Process {
+    let process = ProcessIdentity {
         host: host.to_owned(),
         system: Some(format!("the system of {host}")),
-        ..Process::this().clone()
+        ..ProcessIdentity::this().clone()
     };
     Leases::new(process, BEAT_HERE, PATIENCE_HERE, clock)
 }
@@ -45,7 +45,7 @@ fn one_at_a_time_has_a_lease() {
     let path = folder.path().join("0123.lease");
     let first = Lease::take(&record).unwrap().unwrap();
     let holder: Holder = serde_json::from_slice(&fs::read(&path).unwrap()).unwrap();
-    assert_eq!(&holder.process, Process::this());
+    assert_eq!(&holder.process, ProcessIdentity::this());
     assert!(Lease::is_taken(&record));
     assert!(Lease::take(&record).unwrap().is_none());
     drop(first);
@@ -59,9 +59,9 @@ fn a_dead_process_of_this_machine_has_none() {
     let mut dead = std::process::Command::new("true").spawn().unwrap();
     let number = dead.id();
     dead.wait().unwrap();
-    let process = Process {
+    let process = ProcessIdentity {
         number,
-        ..Process::this().clone()
+        ..ProcessIdentity::this().clone()
     };
     if process.system.is_none() {
         return;

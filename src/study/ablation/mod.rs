@@ -8,13 +8,13 @@ pub use finding::{Finding, Verdict};
 pub use table::write_ablation;
 
 use crate::document::{Document, LoadError, Problem};
-use crate::grid::PointError;
+use crate::grid::{PointError, Variant};
 use crate::run;
 use crate::scene::{Change, Start};
 use crate::study::comparison::{
-    AS_IT_IS, Base, Comparison, Cost, Measurement, RunRow, Setting, States,
+    AS_IT_IS, Base, Comparison, Cost, Measurement, RunRow, States, with_variants,
 };
-use crate::sweep::Job;
+use crate::sweep::{Job, StudyRuns};
 use serde::Serialize;
 
 /// Fewest seeds of an ablation by default.
@@ -50,6 +50,17 @@ pub struct AblationOptions {
     pub tolerance: f64,
     /// Words of the names of the simplifications that are tried; empty for all.
     pub effects: Vec<String>,
+}
+
+/// All effects, at the seeds of the sweep.
+impl Default for AblationOptions {
+    fn default() -> Self {
+        Self {
+            seeds: None,
+            tolerance: 0.05,
+            effects: Vec::new(),
+        }
+    }
 }
 
 /// A simplification that is not tried.
@@ -90,9 +101,9 @@ pub enum AblationError {
     /// The scene as it is cannot be labelled.
     #[error("the scene as it is cannot be compared: {0}")]
     AsItIs(String),
-    /// The scene has nothing to take away.
-    #[error("{0}: the scene has no effect that can be switched off")]
-    NothingToAblate(String),
+    /// The scene has nothing to take away: the file, and why what was meant is not tried.
+    #[error("{0}: nothing of the scene can be switched off{1}")]
+    NothingToAblate(String, String),
     /// No simplification has a name with this word.
     #[error("--ablate={word}: no simplification has that word in its name; there are {known}")]
     UnknownEffect {
@@ -103,20 +114,25 @@ pub enum AblationError {
     },
 }
 
-/// The setting, unless its time step is so small that it simplifies nothing.
-fn worth_its_work(as_it_is: &Setting, setting: Setting) -> Result<Setting, String> {
-    let work = |setting: &Setting| {
-        let jobs = setting.sweep.jobs().unwrap_or_default();
-        jobs.iter().map(Job::work).sum::<u64>() as f64
-    };
-    let ratio = work(&setting) / work(as_it_is);
-    if ratio > MOST_WORK {
-        return Err(format!(
+crate::refusal::always!(true: AblationError);
+
+/// Refuses a setting whose time step is so small that it simplifies nothing. `work_of` is the work
+/// of all runs of a variant.
+fn check_work(
+    work_of: impl Fn(&Variant) -> Result<u64, PointError>,
+    as_it_is: &Variant,
+    variant: &Variant,
+) -> Result<(), String> {
+    let work = |variant| work_of(variant).map(|it| it as f64);
+    let of_variant = work(variant).map_err(|error| error.to_string())?;
+    let ratio = of_variant / work(as_it_is).map_err(|error| error.to_string())?;
+    match ratio > MOST_WORK {
+        true => Err(format!(
             "its time steps, chosen by `dt = \"auto\"`, make {ratio:.0} times the work of the \
              scene as it is; give `time.dt` a number to try it all the same"
-        ));
+        )),
+        false => Ok(()),
     }
-    Ok(setting)
 }
 
 /// The changes whose names hold one of these words; all without words.
@@ -166,10 +182,11 @@ impl Ablation {
         let singles = run::model_of(scene).simplifications(scene).into_iter();
         let singles = singles.map(|it| (it.name.clone(), Change::of_simplification(&it)));
         let singles = chosen(singles.collect(), &options.effects)?;
+        base.sweep.study = Some(StudyRuns::Compared);
         let mut ablation = Self::new(base, singles, options)?;
-        if ablation.comparison.settings.len() < 2 && ablation.skipped.is_empty() {
+        if ablation.comparison.settings.len() < 2 {
             let path = document.path().display().to_string();
-            return Err(AblationError::NothingToAblate(path));
+            return Err(AblationError::NothingToAblate(path, ablation.why_skipped()));
         }
         ablation
             .skipped
@@ -182,25 +199,31 @@ impl Ablation {
         changes: Vec<(String, Change)>,
         options: AblationOptions,
     ) -> Result<Self, AblationError> {
-        let as_it_is = Setting::new(&base, AS_IT_IS.to_owned(), Change::default());
-        let as_it_is = as_it_is.map_err(|problems| {
+        let in_words = |problems: Vec<Problem>| {
             let problems: Vec<String> = problems.iter().map(Problem::to_string).collect();
-            AblationError::AsItIs(problems.join("; "))
-        })?;
+            problems.join("; ")
+        };
+        let as_it_is = base.setting(AS_IT_IS.to_owned(), Change::default());
+        let as_it_is = as_it_is.map_err(|it| AblationError::AsItIs(in_words(it)))?;
+        let work_of = |variant: &Variant| {
+            let jobs = with_variants(&base.sweep, vec![variant.clone()]).jobs()?;
+            Ok(jobs.iter().map(Job::work).sum())
+        };
         let (mut settings, mut skipped) = (vec![as_it_is], Vec::new());
         for (name, change) in changes {
-            let setting = Setting::new(&base, name.clone(), change).map_err(|problems| {
-                let reasons: Vec<String> = problems.iter().map(Problem::to_string).collect();
-                reasons.join("; ")
+            let setting = base.setting(name.clone(), change).map_err(in_words);
+            let setting = setting.and_then(|it| {
+                check_work(work_of, &settings[0].1, &it.1)?;
+                Ok(it)
             });
-            match setting.and_then(|setting| worth_its_work(&settings[0], setting)) {
+            match setting {
                 Ok(setting) => settings.push(setting),
                 Err(reason) => skipped.push(Skipped { name, reason }),
             }
         }
         let measurement = Measurement::States(Box::new(base.sweep.sieves.clone()));
         Ok(Self {
-            comparison: Comparison::new(settings, 0, 0, measurement)?,
+            comparison: Comparison::new(&base.sweep, settings, 0, measurement)?,
             skipped,
             options,
             base,
@@ -209,11 +232,11 @@ impl Ablation {
     }
 
     /// The same with each pair of those that matter: both at once. The sentence of its finding
-    /// stays that about single effects.
+    /// stays that about single effects. None if there is no pair.
     ///
     /// # Errors
     /// If a pair cannot be run at a point.
-    pub fn with_pairs(&self, rows: &[Option<RunRow>]) -> Result<Self, AblationError> {
+    pub fn with_pairs(&self, rows: &[Option<RunRow>]) -> Result<Option<Self>, AblationError> {
         let ablated = self.evaluate(rows);
         let of_singles = Some(self.finding(&ablated));
         let mut matter: Vec<&Ablated> = ablated
@@ -244,6 +267,9 @@ impl Ablation {
                 }
             }
         }
+        if pairs.is_empty() {
+            return Ok(None);
+        }
         let mut both = Self::new(
             self.base.clone(),
             singles.into_iter().chain(pairs).collect(),
@@ -253,7 +279,19 @@ impl Ablation {
         both.skipped.extend(self.skipped.clone());
         both.skipped.sort_by(|one, other| one.name.cmp(&other.name));
         both.skipped.dedup();
-        Ok(both)
+        Ok(Some(both))
+    }
+
+    /// What is not tried and why, behind a semicolon; empty if there is nothing.
+    fn why_skipped(&self) -> String {
+        let skipped = self.skipped.iter();
+        let reasons: Vec<String> = skipped
+            .map(|it| format!("{}: {}", it.name, it.reason))
+            .collect();
+        match reasons.as_slice() {
+            [] => String::new(),
+            reasons => format!("; {}", reasons.join("; ")),
+        }
     }
 
     /// What follows from what simplifications do.

@@ -5,7 +5,7 @@ use super::file::{ACCURACY, AccuracyFile, Changes};
 use super::{AccuracyStudy, Subject, cases};
 use crate::document::{Document, LoadError, Problem, number, one_of};
 use crate::grid::{
-    check_axes, check_jobs, check_number_of_axes, check_steps, expand_axes, expand_seeds,
+    Variant, check_axes, check_jobs, check_number_of_axes, check_steps, expand_axes, expand_seeds,
     nothing_to_leave_out,
 };
 use crate::run;
@@ -13,6 +13,7 @@ use crate::scene::{Change, FileKind, Scene, Start, StartSphere, leaf, settings};
 use crate::simulation::{BuildError, Snapshot};
 use crate::study::StudyName;
 use crate::study::comparison::{AS_IT_IS, Base, Comparison, Measurement, Setting};
+use crate::sweep::StudyRuns;
 use serde::Deserialize;
 use std::path::Path;
 
@@ -154,17 +155,18 @@ fn comparison(
         None => Measurement::States(Box::new(base.sweep.sieves.clone())),
         Some(times) => {
             start_alike(&mut settings, &mut problems);
-            for setting in &mut settings {
-                keep_snapshots(setting, times, &mut problems);
+            for (_, variant) in &mut settings {
+                keep_snapshots(variant, times, &mut problems);
             }
             document.accept(&problems)?;
             Measurement::Motion(times.clone())
         }
     };
-    let comparison = match file.step_time.as_slice() {
-        [] => Comparison::new(settings, reference, 0, measurement),
-        _ => Comparison::timed(settings, reference, 0, measurement),
-    };
+    base.sweep.study = Some(match file.step_time.as_slice() {
+        [] => StudyRuns::Compared,
+        _ => StudyRuns::Timed,
+    });
+    let comparison = Comparison::new(&base.sweep, settings, reference, measurement);
     comparison.map_err(|error| document.refuse(&[Problem::new("", error.to_string())]))
 }
 
@@ -212,7 +214,7 @@ fn settings(
     file: &AccuracyFile,
     choices: &[Choice],
     problems: &mut Vec<Problem>,
-) -> Vec<Setting> {
+) -> Vec<(Setting, Variant)> {
     let mut settings = Vec::new();
     let reference = file.reference.as_ref().map(|changes| {
         let change = changes.change();
@@ -221,19 +223,22 @@ fn settings(
     let as_it_is = (String::new(), AS_IT_IS.to_owned(), Change::default());
     for (path, name, change) in [as_it_is].into_iter().chain(reference) {
         note_absent(base, &path, &change, problems);
-        match Setting::new(base, name, change) {
+        match base.setting(name, change) {
             Ok(setting) => settings.push(setting),
             Err(found) => problems.extend(found.into_iter().map(|it| at(&path, None, it))),
         }
     }
     for choice in choices {
         note_absent(base, &choice.path, &choice.change, problems);
-        match Setting::new(base, choice.name.clone(), choice.change.clone()) {
-            Ok(setting) => settings.push(Setting {
-                method: choice.method.clone(),
-                rung: choice.rung.clone(),
-                ..setting
-            }),
+        match base.setting(choice.name.clone(), choice.change.clone()) {
+            Ok((setting, variant)) => {
+                let setting = Setting {
+                    method: choice.method.clone(),
+                    rung: choice.rung.clone(),
+                    ..setting
+                };
+                settings.push((setting, variant));
+            }
             Err(found) => {
                 let found = found.into_iter();
                 problems.extend(found.map(|it| at(&choice.path, Some(&choice.name), it)));
@@ -266,7 +271,7 @@ fn at(path: &str, name: Option<&str>, problem: Problem) -> Problem {
 /// The place of the reference among the settings.
 fn reference(
     file: &AccuracyFile,
-    settings: &[Setting],
+    settings: &[(Setting, Variant)],
     choices: &[Choice],
 ) -> Result<usize, Problem> {
     if file.reference.is_some() {
@@ -276,7 +281,8 @@ fn reference(
         return Ok(0);
     }
     let smallest = |key: &str| {
-        let rungs = settings.iter().enumerate().filter_map(|(place, setting)| {
+        let rungs = settings.iter().enumerate();
+        let rungs = rungs.filter_map(|(place, (setting, _))| {
             let (own, value) = setting.rung.as_ref()?;
             (own == key).then_some((place, *value))
         });
@@ -304,11 +310,10 @@ fn reference(
 
 /// Makes all settings start with the spheres of the scene as it is. Random places follow from all
 /// keys of a scene, so that each setting would have its own.
-fn start_alike(settings: &mut [Setting], problems: &mut Vec<Problem>) {
-    let Some(first) = settings.first() else {
+fn start_alike(settings: &mut [(Setting, Variant)], problems: &mut Vec<Problem>) {
+    let Some((_, Variant { scene, .. })) = settings.first() else {
         return;
     };
-    let scene = &first.sweep.scene;
     if !matches!(scene.start, Start::Random { .. }) {
         return;
     }
@@ -319,12 +324,12 @@ fn start_alike(settings: &mut [Setting], problems: &mut Vec<Problem>) {
             Err(error) => return problems.push(Problem::new("scene", error.to_string())),
         },
     );
-    for setting in settings {
-        let own = &mut setting.sweep.scene;
+    for (_, variant) in settings {
+        let own = &mut variant.scene;
         if own.spheres.count != spheres.count || own.spheres.radius != spheres.radius {
             let message = format!(
                 "with {}: a motion of other spheres cannot be compared with that of the scene",
-                setting.name
+                variant.name
             );
             let help = "leave `spheres` as it is, or remove `times` to compare labels";
             problems.push(Problem::new("times", message).help(help));
@@ -353,8 +358,8 @@ fn placed(scene: &Scene) -> Result<Vec<StartSphere>, BuildError> {
 }
 
 /// Makes the runs of a setting keep all spheres at these times, and end with the last.
-fn keep_snapshots(setting: &mut Setting, times: &[f64], problems: &mut Vec<Problem>) {
-    let time = &mut setting.sweep.scene.time;
+fn keep_snapshots(variant: &mut Variant, times: &[f64], problems: &mut Vec<Problem>) {
+    let time = &mut variant.scene.time;
     let frames = times.iter().map(|at| at / time.frame_interval);
     let whole = frames
         .clone()
@@ -363,7 +368,7 @@ fn keep_snapshots(setting: &mut Setting, times: &[f64], problems: &mut Vec<Probl
         let message = format!(
             "with {}: the times must be whole multiples of `time.frame_interval` = {} s, up to \
              `time.duration` = {} s",
-            setting.name,
+            variant.name,
             number(time.frame_interval),
             number(time.duration)
         );
@@ -375,7 +380,7 @@ fn keep_snapshots(setting: &mut Setting, times: &[f64], problems: &mut Vec<Probl
     let common = frames
         .iter()
         .fold(0, |one, &other| greatest_common_divisor(one, other));
-    setting.sweep.scene.output.snapshot_interval = common as f64 * time.frame_interval;
+    variant.scene.output.snapshot_interval = common as f64 * time.frame_interval;
     time.duration = frames
         .iter()
         .max()

@@ -1,9 +1,9 @@
 //! What a comparison starts from: a scene, or a sweep over one, whose keys settings change.
 
+use super::Setting;
 use crate::classify::Family;
 use crate::document::{Document, LoadError, Problem, number};
-use crate::grid::base_scene;
-use crate::grid::{PointScenes, SceneTree, check_change};
+use crate::grid::{PointScenes, SceneTree, Variant, base_scene, check_change};
 use crate::run::{self, Reading};
 use crate::scene::{Change, FileKind, Friction, Scene, is_within};
 use crate::sweep::{self, Sweep};
@@ -15,13 +15,6 @@ pub(crate) struct Base {
     /// The sweep; of a scene that of its own seed alone.
     pub(crate) sweep: Sweep,
     source: SceneTree,
-}
-
-/// The sweep of a setting.
-pub(super) struct Changed {
-    pub(super) sweep: Sweep,
-    /// What was changed besides what the setting says, and why.
-    pub(super) note: Option<String>,
 }
 
 impl Base {
@@ -95,13 +88,20 @@ impl Base {
         self.source.not_there(change)
     }
 
-    /// The sweep with a change. Problems have paths of the scene.
-    pub(super) fn with(&self, change: &Change) -> Result<Changed, Vec<Problem>> {
-        let held = self.hold_impulse(change);
+    /// The setting that makes a change, and the variant that it is.
+    ///
+    /// # Errors
+    /// What is wrong with it, by paths of the scene.
+    pub(crate) fn setting(
+        &self,
+        name: String,
+        change: Change,
+    ) -> Result<(Setting, Variant), Vec<Problem>> {
+        let held = self.hold_impulse(&change);
         let whole = held.as_ref().map(|held| change.then(held));
-        let mut sweep = self.changed(whole.as_ref().unwrap_or(change))?.sweep;
+        let mut sweep = self.changed(whole.as_ref().unwrap_or(&change))?.sweep;
         self.check(&sweep, held.is_some())?;
-        // Studies keep rows, not records.
+        // Rows need none of these.
         sweep.scene.output.snapshot_interval = 0.0;
         sweep.scene.output.trajectory = false;
         let note = held.and_then(|held| {
@@ -111,7 +111,19 @@ impl Base {
                 number(coefficient)
             ))
         });
-        Ok(Changed { sweep, note })
+        let variant = Variant {
+            name: name.clone(),
+            scale: change.scale.clone(),
+            scene: sweep.scene,
+        };
+        let setting = Setting {
+            method: name.clone(),
+            name,
+            rung: None,
+            change,
+            note,
+        };
+        Ok((setting, variant))
     }
 
     /// What holds mu/dt of "spin" friction where a change gives another time step: the law is an
@@ -126,8 +138,9 @@ impl Base {
         let is_axis = self.varies("friction.coefficient");
         let dt = change.value("time.dt")?.as_f64()?;
         let before = self.source.number("time", "dt")?;
+        // The same step changes nothing, and must not change the last bit of the coefficient.
         let held = coefficient * dt / before;
-        (!is_removed && !is_axis && held != coefficient)
+        (!is_removed && !is_axis && dt != before && held != coefficient)
             .then(|| Change::of_key("friction.coefficient", json!(held)))
     }
 

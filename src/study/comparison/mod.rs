@@ -6,7 +6,6 @@ mod bootstrap;
 mod disagreement;
 mod majority;
 mod measurement;
-mod runs;
 mod sample;
 mod shift;
 mod states;
@@ -19,14 +18,12 @@ pub use bootstrap::Interval;
 pub use disagreement::{Disagreement, PointDisagreement};
 pub use majority::{Majority, majorities};
 pub use measurement::{Measured, Measurement, Quantity};
-pub use runs::{StudyReport, StudyRuns};
 pub use sample::{Cost, Sample};
 pub use shift::Shift;
 pub use states::{ShiftOf, States};
-pub use table::{KnownRuns, RunRow, read_runs};
+pub use table::{RunRow, RunTable, RunTableError};
 
-use crate::document::Problem;
-use crate::grid::{Axis, PointError};
+use crate::grid::{Axis, PointError, Variant, number_of_points};
 use crate::scene::Change;
 use crate::sweep::{Job, Sweep};
 use std::collections::HashMap;
@@ -34,7 +31,7 @@ use std::collections::HashMap;
 /// Name of the setting that changes nothing.
 pub(super) const AS_IT_IS: &str = "as it is";
 
-/// One setting of a comparison.
+/// What a comparison knows of a setting, besides the variant that it is of the sweep.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Setting {
     /// Name, as in tables and sentences.
@@ -47,32 +44,14 @@ pub struct Setting {
     pub change: Change,
     /// What was changed besides, and why.
     pub note: Option<String>,
-    /// The sweep with the change: the same points and seeds, by their places.
-    pub sweep: Sweep,
-}
-
-impl Setting {
-    /// A setting of a base.
-    ///
-    /// # Errors
-    /// What is wrong with it, by paths of the scene.
-    pub(crate) fn new(base: &Base, name: String, change: Change) -> Result<Self, Vec<Problem>> {
-        let base::Changed { sweep, note } = base.with(&change)?;
-        Ok(Self {
-            method: name.clone(),
-            name,
-            rung: None,
-            change,
-            note,
-            sweep,
-        })
-    }
 }
 
 /// Settings that are compared with one of them, and the runs that this takes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Comparison {
-    /// The settings.
+    /// What is run: the settings are the variants of its last axis.
+    pub sweep: Sweep,
+    /// The settings, in the order of that axis.
     pub settings: Vec<Setting>,
     /// Place of the one that the others are compared with.
     pub reference: usize,
@@ -88,94 +67,56 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// A comparison of settings of one base.
+    /// A comparison of settings at the points and seeds of a sweep, whose first is the scene as it
+    /// is. All are compared with the one at the place `reference`.
     ///
     /// # Errors
     /// The first point whose scene cannot be run. Never for settings that were checked.
-    pub fn new(
-        settings: Vec<Setting>,
+    pub(super) fn new(
+        base: &Sweep,
+        settings: Vec<(Setting, Variant)>,
         reference: usize,
-        as_it_is: usize,
         measurement: Measurement,
     ) -> Result<Self, PointError> {
-        let jobs = settings.iter().map(|setting| setting.sweep.jobs());
-        let jobs = jobs.collect::<Result<_, _>>()?;
-        Ok(Self::of_jobs(
+        let (settings, variants): (Vec<_>, Vec<_>) = settings.into_iter().unzip();
+        let sweep = with_variants(base, variants);
+        let places = (0..settings.len()).map(|place| place as f64);
+        let points = places.flat_map(|place| {
+            let points = base.grid();
+            points.map(move |values| [values, vec![place]].concat())
+        });
+        let seeds = &base.seeds;
+        let all = points.flat_map(|values| seeds.iter().map(move |seed| (values.clone(), *seed)));
+        let mut comparison = Self {
+            runs: vec![Vec::new(); settings.len()],
             settings,
-            jobs,
             reference,
-            as_it_is,
+            as_it_is: 0,
             measurement,
-        ))
-    }
-
-    /// The same with runs that no two settings share, so that each is timed by itself: what changes
-    /// no motion, such as the search for neighbours, changes no identity of a run.
-    ///
-    /// # Errors
-    /// Those of [`new`](Self::new).
-    pub(super) fn timed(
-        settings: Vec<Setting>,
-        reference: usize,
-        as_it_is: usize,
-        measurement: Measurement,
-    ) -> Result<Self, PointError> {
-        let own = |setting: &Setting| {
-            let jobs = setting.sweep.jobs()?.into_iter();
-            let jobs = jobs.map(|job| {
-                let text = format!("{} timed with {}", job.id, setting.name);
-                let id = blake3::hash(text.as_bytes()).to_hex()[..job.id.len()].to_owned();
-                Job { id, ..job }
-            });
-            Ok(jobs.collect())
+            jobs: Vec::new(),
+            sweep,
         };
-        let jobs = settings
-            .iter()
-            .map(own)
-            .collect::<Result<_, PointError>>()?;
-        Ok(Self::of_jobs(
-            settings,
-            jobs,
-            reference,
-            as_it_is,
-            measurement,
-        ))
+        comparison.share(comparison.sweep.jobs_at(all)?);
+        Ok(comparison)
     }
 
-    /// The same with jobs that are there, of each setting its own, point by point.
-    pub(super) fn of_jobs(
-        mut settings: Vec<Setting>,
-        jobs_of_settings: Vec<Vec<Job>>,
-        reference: usize,
-        as_it_is: usize,
-        measurement: Measurement,
-    ) -> Self {
+    /// Takes all runs in their order, each once.
+    fn share(&mut self, all: Vec<Job>) {
         let mut places: HashMap<String, usize> = HashMap::new();
-        let (mut jobs, mut runs) = (Vec::new(), Vec::new());
-        for of_setting in jobs_of_settings {
-            let mut own = Vec::new();
-            for job in of_setting {
-                let place = *places.entry(job.id.clone()).or_insert(jobs.len());
-                if place == jobs.len() {
-                    jobs.push(job);
-                }
-                own.push(place);
+        for job in all {
+            let setting = job.values.last().map_or(0, |place| *place as usize);
+            let place = *places.entry(job.id.clone()).or_insert(self.jobs.len());
+            if place == self.jobs.len() {
+                self.jobs.push(job);
             }
-            runs.push(own);
+            self.runs[setting].push(place);
         }
-        for (place, setting) in settings.iter_mut().enumerate() {
-            let is_new = place != as_it_is && !setting.change.is_empty();
-            if is_new && runs[place] == runs[as_it_is] && setting.note.is_none() {
+        let runs = &self.runs;
+        for (place, setting) in self.settings.iter_mut().enumerate() {
+            let is_new = place != self.as_it_is && !setting.change.is_empty();
+            if is_new && runs[place] == runs[self.as_it_is] && setting.note.is_none() {
                 setting.note = Some("its runs are those of the scene as it is".to_owned());
             }
-        }
-        Self {
-            settings,
-            reference,
-            as_it_is,
-            measurement,
-            jobs,
-            runs,
         }
     }
 
@@ -184,42 +125,49 @@ impl Comparison {
         self.runs[setting].iter().map(|&place| &self.jobs[place])
     }
 
-    /// Names of the settings that runs are made for, by the identities of these; of settings that
-    /// share a run, the first.
-    pub fn settings_of_runs(&self) -> HashMap<&str, &str> {
-        let mut names = HashMap::new();
-        for (place, setting) in self.settings.iter().enumerate() {
-            for job in self.jobs_of(place) {
-                names
-                    .entry(job.id.as_str())
-                    .or_insert(setting.name.as_str());
-            }
-        }
-        names
+    /// The axes besides the settings.
+    pub fn axes(&self) -> &[Axis] {
+        self.sweep.axes.split_last().map_or(&[], |(_, axes)| axes)
     }
 
-    /// The axes, which all settings have.
-    pub fn axes(&self) -> &[Axis] {
-        self.settings.first().map_or(&[], |it| &it.sweep.axes)
+    /// The variants that the settings are.
+    fn variants(&self) -> &[Variant] {
+        self.sweep.axes.last().map_or(&[], |axis| &axis.variants)
+    }
+
+    /// The sweep of a setting alone, by its place: its scene, and the values that it has on the
+    /// axes.
+    pub fn sweep_of(&self, setting: usize) -> Sweep {
+        let variant = &self.variants()[setting];
+        let mut axes = self.axes().to_vec();
+        for axis in &mut axes {
+            let factor = variant.factor(&axis.name);
+            axis.values.iter_mut().for_each(|value| *value *= factor);
+        }
+        Sweep {
+            scene: variant.scene.clone(),
+            axes,
+            ..self.sweep.clone()
+        }
     }
 
     /// Number of points that each setting runs at.
     pub fn points(&self) -> usize {
-        self.settings.first().map_or(0, |it| it.sweep.points())
+        number_of_points(self.axes())
     }
 
     /// Number of seeds.
     pub fn seeds(&self) -> usize {
-        self.settings.first().map_or(0, |it| it.sweep.seeds.len())
+        self.sweep.seeds.len()
     }
 
     /// What is measured of each run.
     pub fn quantities(&self) -> Vec<Quantity> {
-        let first = self.settings.get(self.reference);
-        first.map_or_else(Vec::new, |it| self.measurement.quantities(&it.sweep.scene))
+        let reference = self.variants().get(self.reference);
+        reference.map_or_else(Vec::new, |it| self.measurement.quantities(&it.scene))
     }
 
-    /// The runs of a setting, by its place, of the rows of all jobs.
+    /// The runs of a setting, by its place, from the rows of all jobs.
     pub fn sample<'a>(&self, setting: usize, rows: &'a [Option<RunRow>]) -> Sample<'a> {
         let seeds = self.seeds().max(1);
         let of_point = |places: &[usize]| {
@@ -230,4 +178,26 @@ impl Comparison {
             points: self.runs[setting].chunks(seeds).map(of_point).collect(),
         }
     }
+
+    /// The rows that there are of a setting, with its values on the axes and seeds.
+    pub(super) fn rows_of<'a>(
+        &'a self,
+        setting: usize,
+        rows: &'a [Option<RunRow>],
+    ) -> impl Iterator<Item = (Vec<f64>, u64, &'a RunRow)> {
+        let points = self.sweep_of(setting).grid().collect::<Vec<_>>();
+        let runs = self.sample(setting, rows).points;
+        let pairs = points.into_iter().zip(runs);
+        pairs.flat_map(|(values, runs)| {
+            let runs = runs.into_iter().zip(&self.sweep.seeds);
+            runs.filter_map(move |(run, seed)| Some((values.clone(), *seed, run?)))
+        })
+    }
+}
+
+/// A sweep with one more axis, of variants.
+pub(super) fn with_variants(base: &Sweep, variants: Vec<Variant>) -> Sweep {
+    let mut sweep = base.clone();
+    sweep.axes.push(Axis::of_variants(variants));
+    sweep
 }

@@ -4,18 +4,15 @@
 //! names (empty where one is undefined), `sphere_steps`, `force_evaluations`, `cpu_seconds`,
 //! `measured` (which thresholds or times the row was measured with), `id`. A run that several
 //! settings share has a row for each.
-//!
-//! `runs.makers.csv` beside it: which build made each row, in the columns `id`, `version` and
-//! `commit`. It is a file of its own because the same study gives the same table, whatever build
-//! makes it.
 
-use super::{Comparison, Quantity};
+use super::{Comparison, Measured, Measurement, Quantity};
 use crate::classify::{FAMILIES, Label, NUMERICS};
+use crate::document::text;
 use crate::grid::Axis;
-use crate::record::Program;
+use crate::record::RunRecord;
 use crate::store::{StoreError, write_atomic};
-use std::collections::{BTreeMap, HashSet};
-use std::path::{Path, PathBuf};
+use crate::sweep::{Folder, Job, Plan, work};
+use std::collections::{HashMap, HashSet};
 
 /// What was measured of one run, and what it cost.
 #[derive(Clone, Debug, PartialEq)]
@@ -55,111 +52,163 @@ fn columns(axes: &[Axis], quantities: &[Quantity]) -> Vec<String> {
     columns
 }
 
-/// Writes the rows that there are of the jobs of a comparison, and after them the lines of
-/// `others`: those of other settings or seeds, which a later study may want again.
-///
-/// # Errors
-/// If the file cannot be written.
-pub(super) fn write_runs(
-    comparison: &Comparison,
-    rows: &[Option<RunRow>],
-    others: &[csv::StringRecord],
-    path: &Path,
-) -> Result<(), StoreError> {
-    let content = |error: &dyn std::fmt::Display| StoreError::content(path, error);
-    let mut table = csv::Writer::from_writer(Vec::new());
-    let axes = comparison.axes();
-    let quantities = comparison.quantities();
-    table
-        .write_record(columns(axes, &quantities))
-        .map_err(|error| content(&error))?;
-    let measured = comparison.measurement.digest();
-    for (setting, places) in comparison.settings.iter().zip(&comparison.runs) {
-        for &place in places {
-            let (job, Some(Some(run))) = (&comparison.jobs[place], rows.get(place)) else {
-                continue;
-            };
-            let cells = (
-                (&setting.name, &job.values, job.seed, run.label.name),
-                &run.values,
-                (run.sphere_steps, run.force_evaluations, run.cpu_seconds),
-                (&measured, &run.id),
-            );
-            table.serialize(cells).map_err(|error| content(&error))?;
-        }
-    }
-    for line in others {
-        table.write_record(line).map_err(|error| content(&error))?;
-    }
-    let bytes = table.into_inner().map_err(|error| content(&error))?;
-    write_atomic(path, &bytes)
-}
-
-/// The rows of a table that can be used again, and its other lines.
+/// The table of the runs of a comparison.
 #[derive(Clone, Debug, Default)]
-pub struct KnownRuns {
-    /// Rows of jobs of the comparison.
-    pub rows: Vec<RunRow>,
-    /// Lines of other settings or seeds.
+pub struct RunTable {
+    /// The rows of its jobs, in their order; none of one that failed or is yet to be run.
+    pub rows: Vec<Option<RunRow>>,
+    /// Lines of other settings or seeds, which a later study may want again.
     pub others: Vec<csv::StringRecord>,
-    /// Which builds made them all, by identities, as far as that was noted.
-    pub makers: BTreeMap<String, Program>,
 }
 
-/// Reads the rows of a table that can be used again: of the same axes, quantities and measurement.
-/// There are none where there is no file.
-///
-/// # Errors
-/// If the file cannot be read, or has other columns: its rows are not to be written over.
-pub fn read_runs(comparison: &Comparison, path: &Path) -> Result<KnownRuns, StoreError> {
-    if !path.exists() {
-        return Ok(KnownRuns::default());
+/// Why there is no table.
+#[derive(Debug, thiserror::Error)]
+pub enum RunTableError {
+    /// A record cannot be read.
+    #[error(transparent)]
+    Store(#[from] StoreError),
+    /// The system gives no threads.
+    #[error("cannot start the workers: {0}")]
+    Threads(#[from] rayon::ThreadPoolBuildError),
+}
+
+crate::refusal::always!(false: RunTableError);
+
+impl RunTable {
+    /// The table without a row.
+    pub fn new(comparison: &Comparison) -> Self {
+        Self {
+            rows: vec![None; comparison.jobs.len()],
+            ..Self::default()
+        }
     }
-    let fail = |error: csv::Error| StoreError::reading(path, error.into());
-    let mut table = csv::Reader::from_path(path).map_err(fail)?;
-    let axes = comparison.axes();
-    let quantities = comparison.quantities();
-    if table
-        .headers()
-        .map_err(fail)?
-        .iter()
-        .ne(columns(axes, &quantities))
-    {
-        let reason = "its columns are not those of this study: other axes, other quantities, or a \
-                      table of something else; move it away, or write it anew with --force";
-        return Err(StoreError::text(path, 1, reason));
+
+    /// Reads the rows of a results folder that can be used again: of the same axes, quantities and
+    /// measurement. Without a file there are none.
+    ///
+    /// # Errors
+    /// If the file cannot be read, or has other columns: its rows are not to be written over.
+    pub fn read(comparison: &Comparison, folder: &Folder) -> Result<Self, StoreError> {
+        let path = &folder.runs();
+        let mut table = Self::new(comparison);
+        if !path.exists() {
+            return Ok(table);
+        }
+        let (axes, quantities) = (comparison.axes(), comparison.quantities());
+        let content = text::read(path).map_err(|error| StoreError::reading(path, error))?;
+        let mut file = csv::ReaderBuilder::new();
+        let mut file = file.flexible(true).from_reader(content.as_bytes());
+        let fail = |error: csv::Error| StoreError::reading(path, error.into());
+        let header = file.headers().map_err(fail)?;
+        if header.iter().ne(columns(axes, &quantities)) {
+            let reason = "its columns are not those of this study: other axes, other quantities, \
+                          or a table of something else; move it away, or write it anew with --force";
+            return Err(StoreError::text(path, 1, reason));
+        }
+        let measured = comparison.measurement.digest();
+        let ids = comparison.jobs.iter().map(|job| job.id.as_str());
+        let places: HashMap<&str, usize> = ids.enumerate().map(|(at, id)| (id, at)).collect();
+        for line in file.records() {
+            let line = line.map_err(fail)?;
+            let number = line.position().map_or(1, csv::Position::line);
+            let (mut row, how) = parse(&line, axes.len(), quantities.len()).ok_or_else(|| {
+                let reason = "this is no row of a study; remove the line, or delete the file: its \
+                              rows are made again from records, or by runs";
+                StoreError::text(path, number, reason)
+            })?;
+            if how != measured {
+                continue;
+            }
+            row.label = comparison.measurement.label_again(row.label, &row.values);
+            match places.get(row.id.as_str()) {
+                Some(&place) => table.rows[place] = Some(row),
+                None => table.others.push(line),
+            }
+        }
+        Ok(table)
     }
-    let measured = comparison.measurement.digest();
-    let own: HashSet<&str> = comparison.jobs.iter().map(|job| job.id.as_str()).collect();
-    let mut runs = KnownRuns {
-        makers: read_makers(path)?,
-        ..KnownRuns::default()
-    };
-    let mut known = HashSet::new();
-    for row in table.records() {
-        let record = row.map_err(fail)?;
-        let line = record.position().map_or(1, csv::Position::line);
-        let parsed = parse(&record, axes.len(), quantities.len());
-        let (mut row, how) = parsed.ok_or_else(|| {
-            StoreError::text(path, line, "this is no row of a study; delete the file")
+
+    /// The plan of a folder in which jobs that have a row are done.
+    #[must_use]
+    pub fn applied_to(&self, plan: Plan) -> Plan {
+        let rows = self.rows.iter().flatten();
+        let known: HashSet<&str> = rows.map(|row| row.id.as_str()).collect();
+        plan.with_labels(|job| known.contains(job.id.as_str()))
+    }
+
+    /// Adds rows of the jobs that have a record in the folder, with that many workers.
+    ///
+    /// # Errors
+    /// If a record cannot be read.
+    pub fn add_records(
+        &mut self,
+        comparison: &Comparison,
+        folder: &Folder,
+        workers: usize,
+    ) -> Result<(), RunTableError> {
+        let jobs = comparison.jobs.iter().enumerate();
+        let missing: Vec<(usize, &Job)> = jobs.filter(|(at, _)| self.rows[*at].is_none()).collect();
+        let quantities = comparison.quantities().len();
+        let measured = work::map(workers, &missing, |(_, job)| {
+            let record = folder.read_record_of(job)?;
+            let row = record.map(|it| RunRow::of(job, &it, &comparison.measurement, quantities));
+            Ok::<_, StoreError>(row)
         })?;
-        if how != measured {
-            continue;
+        for ((place, _), row) in missing.into_iter().zip(measured) {
+            self.rows[place] = row?;
         }
-        row.label = comparison.measurement.label_again(row.label, &row.values);
-        if !own.contains(row.id.as_str()) {
-            runs.others.push(record);
-        } else if known.insert(row.id.clone()) {
-            runs.rows.push(row);
+        Ok(())
+    }
+
+    /// Writes the table of a results folder: the rows of each setting, then the lines of others.
+    ///
+    /// # Errors
+    /// If a file cannot be written.
+    pub fn write(&self, comparison: &Comparison, folder: &Folder) -> Result<(), StoreError> {
+        let path = &folder.runs();
+        let fail = |error: csv::Error| StoreError::content(path, error);
+        let mut table = csv::Writer::from_writer(Vec::new());
+        let names = columns(comparison.axes(), &comparison.quantities());
+        table.write_record(names).map_err(fail)?;
+        let measured = comparison.measurement.digest();
+        for (place, setting) in comparison.settings.iter().enumerate() {
+            for (values, seed, run) in comparison.rows_of(place, &self.rows) {
+                let cells = (
+                    (&setting.name, values, seed, run.label.name),
+                    &run.values,
+                    (run.sphere_steps, run.force_evaluations, run.cpu_seconds),
+                    (&measured, &run.id),
+                );
+                table.serialize(cells).map_err(fail)?;
+            }
+        }
+        for line in &self.others {
+            table.write_record(line).map_err(fail)?;
+        }
+        let bytes = table.into_inner();
+        let bytes = bytes.map_err(|error| StoreError::content(path, error))?;
+        write_atomic(path, &bytes)
+    }
+}
+
+impl RunRow {
+    /// The row of a run, measured of its record.
+    fn of(job: &Job, record: &RunRecord, measurement: &Measurement, quantities: usize) -> Self {
+        let measured = measurement.measure(record);
+        // Sieves were checked against the scene; a record that contradicts itself has no values.
+        let measured = measured.unwrap_or_else(|_| Measured {
+            label: Label::UNSTABLE,
+            values: vec![None; quantities],
+        });
+        Self {
+            id: job.id.clone(),
+            label: measured.label,
+            values: measured.values,
+            sphere_steps: job.work(),
+            force_evaluations: record.work,
+            cpu_seconds: record.cpu_seconds,
         }
     }
-    let others = runs
-        .others
-        .iter()
-        .filter_map(|line| line.iter().next_back());
-    known.extend(others.map(str::to_owned));
-    runs.makers.retain(|id, _| known.contains(id));
-    Ok(runs)
 }
 
 /// The row of a line, and how it was measured; none if it is no row.
@@ -188,46 +237,4 @@ fn parse(line: &csv::StringRecord, axes: usize, quantities: usize) -> Option<(Ru
         cpu_seconds: cpu_seconds.parse().ok()?,
     };
     Some((row, (*how).to_owned()))
-}
-
-/// The builds that made the rows of a table are noted in this file.
-fn makers_of(table: &Path) -> PathBuf {
-    table.with_extension("makers.csv")
-}
-
-/// Notes which builds made the rows of a table, by the identities of their runs.
-///
-/// # Errors
-/// If the file cannot be written.
-pub(super) fn write_makers(
-    makers: &BTreeMap<String, Program>,
-    table: &Path,
-) -> Result<(), StoreError> {
-    let path = makers_of(table);
-    let rows = makers.iter();
-    let rows = rows.map(|(id, by)| [id.as_str(), &by.version, &by.commit]);
-    let mut bytes = csv::Writer::from_writer(Vec::new());
-    let fail = |error: csv::Error| StoreError::content(&path, error);
-    for row in std::iter::once(["id", "version", "commit"]).chain(rows) {
-        bytes.write_record(row).map_err(fail)?;
-    }
-    let bytes = bytes
-        .into_inner()
-        .map_err(|error| StoreError::content(&path, error))?;
-    write_atomic(&path, &bytes)
-}
-
-/// Reads which builds made the rows of a table, as far as that was noted.
-fn read_makers(table: &Path) -> Result<BTreeMap<String, Program>, StoreError> {
-    let path = makers_of(table);
-    if !path.exists() {
-        return Ok(BTreeMap::new());
-    }
-    let fail = |error: csv::Error| StoreError::reading(&path, error.into());
-    let mut rows = csv::Reader::from_path(&path).map_err(fail)?;
-    let maker = |row: Result<(String, String, String), csv::Error>| {
-        let (id, version, commit) = row.map_err(fail)?;
-        Ok((id, Program { version, commit }))
-    };
-    rows.deserialize().map(maker).collect()
 }

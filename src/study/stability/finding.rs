@@ -2,9 +2,7 @@
 
 use super::StabilityStudy;
 use crate::classify::{Label, LabelRow, LabelTable, NUMERICS, Verdict};
-use crate::grid::{Axis, Variant};
 use crate::study::comparison::{RunRow, Sample};
-use crate::sweep::Sweep;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -29,44 +27,33 @@ impl StabilityStudy {
             .map(|(place, it)| Tried::of(&it.name, &self.comparison.sample(place, rows)))
             .collect()
     }
-}
 
-impl StabilityStudy {
-    /// The study as a sweep whose last axis is the integrator, and the labels of its runs.
-    pub fn labels(&self, rows: &[Option<RunRow>]) -> (Sweep, LabelTable) {
-        let settings = &self.comparison.settings;
-        let variants = settings.iter().map(|setting| Variant {
-            name: setting.name.clone(),
-            scale: Vec::new(),
-            scene: setting.sweep.scene.clone(),
-        });
-        let mut sweep = settings[0].sweep.clone();
-        sweep.axes.push(Axis::of_variants(variants.collect()));
-        let mut table = LabelTable {
-            family: &NUMERICS,
-            axes: sweep.axes.iter().map(|axis| axis.name.clone()).collect(),
-            variants: sweep.variants(),
-            rows: Vec::new(),
+    /// The labels of its runs.
+    pub fn labels(&self, rows: &[Option<RunRow>]) -> LabelTable {
+        let comparison = &self.comparison;
+        let of_setting = |place: usize| {
+            let rows = comparison.rows_of(place, rows);
+            rows.map(move |(values, seed, run)| LabelRow {
+                id: run.id.clone(),
+                values: [values, vec![place as f64]].concat(),
+                seed,
+                verdict: Verdict {
+                    label: run.label,
+                    family: &NUMERICS,
+                    steady: None,
+                    values: run.values.clone(),
+                },
+            })
         };
-        for (place, setting) in settings.iter().enumerate() {
-            let runs = self.comparison.sample(place, rows).points;
-            for (mut values, runs) in setting.sweep.grid().zip(runs) {
-                values.push(place as f64);
-                let row = |run: &RunRow| LabelRow {
-                    id: run.id.clone(),
-                    values: values.clone(),
-                    seed: setting.sweep.scene.seed,
-                    verdict: Verdict {
-                        label: run.label,
-                        family: &NUMERICS,
-                        steady: None,
-                        values: run.values.clone(),
-                    },
-                };
-                table.rows.extend(runs.into_iter().flatten().map(row));
-            }
+        let axes = comparison.sweep.axes.iter();
+        LabelTable {
+            family: &NUMERICS,
+            axes: axes.map(|axis| axis.name.clone()).collect(),
+            variants: comparison.sweep.variants(),
+            rows: (0..comparison.settings.len())
+                .flat_map(of_setting)
+                .collect(),
         }
-        (sweep, table)
     }
 }
 

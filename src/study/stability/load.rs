@@ -1,17 +1,17 @@
 //! From a study file to a study.
 
-use super::{Frames, StabilityStudy, fit_frames, output};
+use super::StabilityStudy;
 use crate::classify::{ENERGY_GAIN, NUMERICS};
 use crate::document::{Document, LoadError, Problem, Schema, unit};
 use crate::grid::{
-    Axis, AxisEntry, base_scene, check_axes, check_jobs, check_points, check_steps, expand_axes,
-    or_path,
+    Axis, AxisEntry, Variant, base_scene, check_axes, check_jobs, check_points, check_steps,
+    expand_axes, or_path,
 };
 use crate::run::Reading;
 use crate::scene::{Change, FileKind, Integrator, Scene, settings};
 use crate::study::StudyName;
 use crate::study::comparison::{Comparison, Measurement, Setting};
-use crate::sweep::{Job, Sweep};
+use crate::sweep::{StudyRuns, Sweep, fit_frames, output_of_balance};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::Value;
@@ -78,7 +78,7 @@ fn default_gain() -> f64 {
 /// A scene is read for a study without its frames and output, which are the study's.
 const READING: Reading = Reading {
     prepare: |scene| {
-        scene.output = output();
+        scene.output = output_of_balance();
         scene.time.frame_interval = scene.time.duration;
         scene.steady = None;
     },
@@ -128,56 +128,60 @@ pub(crate) fn of_document(document: &Document) -> Result<StabilityStudy, LoadErr
     let sweep = Sweep {
         title: file.title,
         axes,
+        study: Some(StudyRuns::Numerics {
+            frames: file.frames,
+        }),
         ..Sweep::of_scene(scene)
     };
-    let frames = Frames(file.frames);
     let settings = file.integrators.iter().map(|it| setting(&sweep, *it));
-    let settings: Vec<Setting> = settings.collect();
-    let jobs = jobs(&settings, frames, document)?;
+    let settings: Vec<_> = settings.collect();
+    check_runs(&sweep, &settings, document)?;
     let measurement = Measurement::Numerics(file.energy_gain);
+    let comparison = Comparison::new(&sweep, settings, 0, measurement);
     Ok(StabilityStudy {
-        comparison: Comparison::of_jobs(settings, jobs, 0, 0, measurement),
-        frames,
+        comparison: comparison
+            .map_err(|error| document.refuse(&[Problem::new("", error.to_string())]))?,
+        frames: file.frames,
     })
 }
 
-/// The setting of an integrator.
-fn setting(sweep: &Sweep, integrator: Integrator) -> Setting {
-    let mut sweep = sweep.clone();
-    sweep.scene.time.integrator = integrator;
-    let name = integrator.name();
-    Setting {
-        name: name.to_owned(),
-        method: name.to_owned(),
+/// The setting of an integrator, and the variant that it is.
+fn setting(sweep: &Sweep, integrator: Integrator) -> (Setting, Variant) {
+    let mut scene = sweep.scene.clone();
+    scene.time.integrator = integrator;
+    let name = integrator.name().to_owned();
+    let setting = Setting {
+        method: name.clone(),
         rung: None,
-        change: Change::of_key("time.integrator", name.into()),
+        change: Change::of_key("time.integrator", integrator.name().into()),
         note: None,
-        sweep,
-    }
+        name: name.clone(),
+    };
+    let scale = Vec::new();
+    (setting, Variant { name, scale, scene })
 }
 
-/// The runs of each integrator.
-fn jobs(
-    settings: &[Setting],
-    frames: Frames,
+/// Checks the runs of each integrator.
+fn check_runs(
+    sweep: &Sweep,
+    settings: &[(Setting, Variant)],
     document: &Document,
-) -> Result<Vec<Vec<Job>>, LoadError> {
+) -> Result<(), LoadError> {
     let mut problems = Vec::new();
-    let points = settings.iter().map(|it| it.sweep.points());
-    if !check_jobs(points.sum(), "use fewer values", &mut problems) {
-        return Err(document.refuse(&problems));
-    }
-    let mut jobs = Vec::new();
-    for Setting { sweep, .. } in settings {
-        let scenes = sweep.grid().map(|values| frames.job(sweep, values));
-        let (own, errors): (Vec<_>, Vec<_>) = scenes.partition(Result::is_ok);
-        let errors = errors.into_iter().filter_map(Result::err);
+    let points = sweep.points().saturating_mul(settings.len());
+    check_jobs(points, "use fewer values", &mut problems);
+    document.accept(&problems)?;
+    for (_, variant) in settings {
+        let own = Sweep {
+            scene: variant.scene.clone(),
+            ..sweep.clone()
+        };
+        let errors = own.grid().filter_map(|values| own.scene_at(&values).err());
         // What is wrong does not depend on the integrator, but for a step that is chosen.
         check_points(errors, &sweep.axes, document.tree(), &mut problems);
         document.accept(&problems)?;
-        jobs.push(own.into_iter().flatten().collect());
     }
-    Ok(jobs)
+    Ok(())
 }
 
 fn check_study(file: &StabilityFile, axes: &[Axis], problems: &mut Vec<Problem>) {

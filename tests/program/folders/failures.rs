@@ -120,3 +120,38 @@ fn a_limit_on_the_size_of_files_fails_the_jobs_beyond_it() {
         .code(0)
         .says("6 run now");
 }
+
+/// Symptom: the message listed the columns of all families, and `compare` named no remedy.
+#[test]
+fn labels_that_are_empty_or_cut_are_refused_with_the_remedy() {
+    let place = Workplace::new();
+    place.write("tiny.toml", &TinySweep::default().text());
+    place.phase(&["sweep", "tiny.toml", "--no-plot"]).code(0);
+    let path = "results/tiny/labels.csv";
+    let whole = place.read(path);
+    let cut = &whole[..whole.rfind(',').unwrap()];
+    let lines = whole.lines().count();
+    for (table, message) in [
+        ("", "labels.csv:1: this file is empty".to_owned()),
+        (
+            "theirs\n",
+            "labels.csv:1: this is not the header line".to_owned(),
+        ),
+        (cut, format!("labels.csv:{lines}: ")),
+    ] {
+        place.write(path, table);
+        for command in ["plot", "compare"] {
+            let folders = match command {
+                "plot" => &["results/tiny"][..],
+                _ => &["results/tiny", "results/tiny"],
+            };
+            let answer = place.phase(&[&[command], folders].concat()).code(1);
+            let answer = answer
+                .complains(&message)
+                .complains("; `phase classify results/tiny` rewrites it");
+            assert!(answer.stderr.len() < 300, "{}", answer.stderr);
+        }
+    }
+    place.phase(&["classify", "results/tiny"]).code(0);
+    assert_eq!(place.read(path), whole);
+}

@@ -221,7 +221,7 @@ fn studies_replace_no_file_of_another_program() {
         ),
         (
             "stability/cradle.toml",
-            &["runs.csv", "runs.makers.csv", "stability.svg"],
+            &["runs.csv", "sweep.json", "failed.csv", "stability.svg"],
         ),
     ] {
         for name in names {

@@ -4,10 +4,10 @@ use super::{Answer, Arguments, Entry, table};
 use crate::cli::columns::{in_columns, written};
 use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
+use crate::cli::labels;
 use phase::classify::{Agreement, MeasureDifference};
 use phase::compare::ComparisonRow;
 use phase::statistics::Estimate;
-use phase::store;
 use phase::sweep::Folder;
 
 pub(super) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
@@ -23,10 +23,7 @@ pub(super) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
             "{option} is for records; folders are compared by their labels"
         )));
     }
-    let read = |path: &std::path::PathBuf| {
-        let labels = Folder::new(path).labels();
-        store::read_labels(&labels)
-    };
+    let read = |path: &std::path::PathBuf| labels::read(&Folder::new(path));
     let agreement = Agreement::of(&read(one)?, &read(other)?).map_err(|differ| {
         Failure::refused(format_args!(
             "{} and {} cannot be compared: {differ}",

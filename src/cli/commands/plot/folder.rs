@@ -5,11 +5,10 @@ use crate::cli::console::Console;
 use crate::cli::exit::Failure;
 use crate::cli::figures::{default_figures, draw};
 use crate::cli::folders::ANOTHER_FOLDER;
-use crate::cli::{folders, format};
+use crate::cli::{folders, format, labels};
 use phase::classify::LabelTable;
 use phase::plot;
 use phase::record::Program;
-use phase::store;
 use phase::sweep::{Folder, Selection, Sweep};
 use serde::Serialize;
 use std::path::Path;
@@ -69,7 +68,7 @@ impl FolderAnswer {
     ) -> Result<Self, Failure> {
         let root = folder.root();
         let sweep = folder.read_sweep()?;
-        let table = read_labels(folder)?.with_variants(sweep.variants());
+        let table = labels::read(folder)?.with_variants(sweep.variants());
         let names: Vec<&str> = match asked {
             [] => default_figures(&sweep, &table, console),
             names => names.iter().map(String::as_str).collect(),
@@ -99,24 +98,6 @@ impl FolderAnswer {
             ..Self::new(folder)
         })
     }
-}
-
-/// The labels of a folder.
-pub(super) fn read_labels(folder: &Folder) -> Result<LabelTable, Failure> {
-    let (root, path) = (folder.root(), folder.labels());
-    if !path.exists() {
-        return Err(Failure::refused(format_args!(
-            "no labels yet; run `phase classify {}` first",
-            root.display()
-        ))
-        .at(path));
-    }
-    store::read_labels(&path).map_err(|error| {
-        Failure::failed(format_args!(
-            "{error}; `phase classify {}` rewrites it",
-            root.display()
-        ))
-    })
 }
 
 /// Prints the constants of the law that the figure `beverloo` shows.

@@ -4,15 +4,14 @@ use super::{Conclusion, Study};
 use crate::cli::console::Console;
 use crate::cli::exit::Failure;
 use crate::cli::format;
-use phase::plot::ablation as figure;
+use phase::plot::{self, StudyResult};
 use phase::record::Program;
 use phase::study::StudyName;
 use phase::study::ablation::{Ablated, Ablation, Finding, Skipped, write_ablation};
 use phase::study::comparison::{Comparison, Cost, RunRow};
 use serde_json::json;
 
-/// An ablation, and whether effects are yet to be taken away in pairs.
-impl Study for (Ablation, bool) {
+impl Study for Ablation {
     const NAME: StudyName = StudyName::Ablation;
 
     fn figures(&self) -> Vec<String> {
@@ -20,36 +19,29 @@ impl Study for (Ablation, bool) {
     }
 
     fn comparison(&self) -> &Comparison {
-        &self.0.comparison
+        &self.comparison
     }
 
     fn note_skipped(&self, console: &Console) {
-        for Skipped { name, reason } in &self.0.skipped {
+        for Skipped { name, reason } in &self.skipped {
             console.note(format_args!("not tried: {name}: {reason}"));
         }
     }
 
     fn extended(&self, rows: &[Option<RunRow>]) -> Result<Option<Self>, Failure> {
-        match self {
-            (_, false) => Ok(None),
-            (singles, true) => {
-                let pairs = singles.with_pairs(rows).map_err(Failure::failed)?;
-                Ok(Some((pairs, false)))
-            }
-        }
+        Ok(self.with_pairs(rows)?)
     }
 
     fn conclude(&self, rows: &[Option<RunRow>]) -> Result<Conclusion, Failure> {
-        let (ablation, _) = self;
-        let (ablated, cost) = (ablation.evaluate(rows), ablation.cost(rows));
-        let finding = ablation.finding(&ablated);
-        let sweep = &ablation.comparison.settings[0].sweep;
-        let drawn = figure::draw(&ablated, &cost, sweep, &Program::current());
+        let (ablated, cost) = (self.evaluate(rows), self.cost(rows));
+        let finding = self.finding(&ablated);
+        let result = StudyResult::Ablation(self, &ablated, &cost);
+        let drawn = plot::draw("ablation", (result, &Program::current()));
         Ok(Conclusion {
             json: json!({
                 "cost": cost,
                 "ablated": ablated,
-                "skipped": ablation.skipped,
+                "skipped": self.skipped,
                 "finding": finding,
             }),
             text: text(&ablated, &cost, &finding),

@@ -1,97 +1,105 @@
 //! Studies of accuracy.
 
-use super::runs::Tally;
-use super::{Arguments, Conclusion, Study, answer};
+use super::runs::{Place, Tally};
+use super::{Arguments, Conclusion, NamedFigure, Study, answer};
 use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::format;
-use phase::plot::accuracy as figures;
+use phase::plot::{self, PlotErrorKind, StudyResult};
 use phase::record::Program;
 use phase::study::StudyName;
-use phase::study::accuracy::{AccuracyStudy, Evaluation, Subject, write_accuracy};
+use phase::study::accuracy::{AccuracyStudy, CaseSetting, Evaluation, write_accuracy};
 use phase::study::comparison::{Comparison, RunRow};
 
 /// A study of settings of a scene.
-pub(super) struct Compared {
-    study: AccuracyStudy,
-    comparison: Box<Comparison>,
-}
-
-/// A study of settings of a verification case.
-pub(super) struct Cases {
-    study: AccuracyStudy,
-    settings: usize,
-}
-
-impl Compared {
-    /// The study; or one of a case.
-    pub(super) fn of(study: AccuracyStudy) -> Result<Self, Cases> {
-        match study.subject.clone() {
-            Subject::Scene(comparison) => Ok(Self { study, comparison }),
-            Subject::Case(settings) => Err(Cases {
-                study,
-                settings: settings.len(),
-            }),
-        }
-    }
-}
-
-impl Study for Compared {
+impl Study for (&AccuracyStudy, &Comparison) {
     const NAME: StudyName = StudyName::Accuracy;
 
     fn figures(&self) -> Vec<String> {
-        figures::names(&self.study)
+        let times = self.0.step_time.iter().map(|x| format!("step-time-{x}"));
+        FIGURES
+            .map(str::to_owned)
+            .into_iter()
+            .chain(times)
+            .collect()
     }
 
     fn comparison(&self) -> &Comparison {
-        &self.comparison
+        self.1
     }
 
     fn conclude(&self, rows: &[Option<RunRow>]) -> Result<Conclusion, Failure> {
-        let evaluation = self.study.evaluate(&self.comparison, rows);
-        conclusion(&self.study, Some((&self.comparison, rows)), evaluation)
+        let (study, comparison) = self;
+        let draws_map = !comparison.axes().is_empty() && comparison.seeds() > 1;
+        let names = match draws_map {
+            true => &FIGURES[..],
+            false => &FIGURES[..1],
+        };
+        let mut found = conclusion(study, names, study.evaluate(comparison, rows))?;
+        let times = study.step_time.iter().map(|x| {
+            let result = StudyResult::StepTimes(comparison, rows, x);
+            let drawn = plot::draw("step-time", (result, &Program::current()));
+            (format!("step-time-{x}"), drawn)
+        });
+        found.figures.extend(times.filter(has_something));
+        Ok(found)
     }
 }
 
-impl Cases {
-    /// Simulates the settings: runs that leave no row.
-    pub(super) fn run(&self, arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
-        let options = &arguments.options;
-        let names = figures::names(&self.study);
-        let place = arguments.place(Compared::NAME, &names, console)?;
-        let evaluation = self.study.run_cases(options.workers(), place.stop);
-        let mut tally = Tally {
-            folder: place.folder.root().to_owned(),
-            runs: self.settings,
-            workers: options.workers(),
-            ..Tally::default()
-        };
-        let Some(evaluation) = evaluation.map_err(Failure::failed)? else {
-            tally.left = self.settings;
-            tally.interrupted = true;
-            return Ok(answer(tally, None, console));
-        };
-        tally.failed = evaluation
-            .outcomes
-            .iter()
-            .filter(|it| it.missing > 0)
-            .count();
-        tally.run_now = self.settings - tally.failed;
-        let found = conclusion(&self.study, None, evaluation)?;
-        let found = arguments.keep(Compared::NAME, found, &place, console)?;
-        Ok(answer(tally, Some(found), console))
-    }
+/// The figures of every study: error against time, and where labels change.
+const FIGURES: [&str; 2] = ["work-precision", "label-changes"];
+
+/// Whether a figure shows anything: of some nothing can be drawn, as no error is above zero.
+fn has_something((_, figure): &NamedFigure) -> bool {
+    !matches!(figure, Err(error) if error.kind() == PlotErrorKind::Nothing)
 }
 
+/// Simulates the settings of a verification case: runs that leave no row.
+pub(super) fn run_cases(
+    study: &AccuracyStudy,
+    settings: &[CaseSetting],
+    arguments: &Arguments,
+    console: &Console,
+) -> Result<Exit, Failure> {
+    let (name, figures) = (StudyName::Accuracy, &FIGURES[..1]);
+    let names: Vec<String> = figures.iter().map(|&it| it.to_owned()).collect();
+    let place = Place::open(arguments, name, &names, None, console)?;
+    let workers = arguments.workers.count();
+    let evaluation = study.run_cases(workers, place.stop);
+    let mut tally = Tally {
+        folder: place.folder.root().to_owned(),
+        runs: settings.len(),
+        workers,
+        ..Tally::default()
+    };
+    let Some(evaluation) = evaluation? else {
+        tally.left = settings.len();
+        tally.interrupted = true;
+        return Ok(answer(tally, None, console));
+    };
+    let missing = evaluation.outcomes.iter().filter(|it| it.missing > 0);
+    tally.failed = missing.count();
+    tally.run_now = settings.len() - tally.failed;
+    let found = conclusion(study, figures, evaluation)?;
+    let found = arguments.keep(name, found, &place, console)?;
+    Ok(answer(tally, Some(found), console))
+}
+
+/// What follows from an evaluation, with these figures of it.
 fn conclusion(
     study: &AccuracyStudy,
-    comparison: Option<(&Comparison, &[Option<RunRow>])>,
+    figures: &[&str],
     evaluation: Evaluation,
 ) -> Result<Conclusion, Failure> {
+    let result = StudyResult::Accuracy(study, &evaluation);
+    let figures = figures.iter().map(|&name| {
+        let drawn = plot::draw(name, (result, &Program::current()));
+        (name.to_owned(), drawn)
+    });
     Ok(Conclusion {
         json: serde_json::to_value(&evaluation).map_err(Failure::failed)?,
         text: text(&evaluation),
-        figures: figures::draw_all(study, comparison, &evaluation, &Program::current()),
+        figures: figures.filter(has_something).collect(),
         table: Some(Box::new(move |path| write_accuracy(&evaluation, path))),
     })
 }

@@ -1,47 +1,21 @@
-//! The folder of a study, its runs with progress, its failures.
+//! The folder of a study, and what became of its runs.
 
-use crate::cli::console::{Console, name_first};
+use super::Arguments;
+use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::folders::ANOTHER_FOLDER;
-use crate::cli::options::Workers;
-use crate::cli::progress::{Progress, Work};
-use crate::cli::{folders, forecast, format, interrupt, job};
-use phase::grid::describe;
-use phase::record::RunRecord;
-use phase::store;
-use phase::study::comparison::{Comparison, KnownRuns, StudyReport, StudyRuns};
-use phase::sweep::{Access, Event, Folder, FolderError, Job, LocalThreads, Wishes};
+use crate::cli::rounds::Rounds;
+use crate::cli::{builds, folders, forecast, format, interrupt};
+use phase::resume::DEFAULT_INTERVAL;
+use phase::study::StudyName;
+use phase::study::comparison::{Comparison, RunTable};
+use phase::sweep::{Access, Folder, Job, Plan, Standing};
 use serde::Serialize;
-use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-/// Where and how the runs of a study are made.
-#[derive(clap::Args)]
-pub(super) struct Options {
-    /// The results folder [default: results/STUDY/NAME, with the name of the study or command, and
-    /// that of the file without .toml].
-    #[arg(short, long, value_name = "DIR")]
-    pub(super) out: Option<PathBuf>,
-    #[command(flatten)]
-    workers: Workers,
-    /// Make every run again, whatever the table holds.
-    #[arg(short, long)]
-    pub(super) force: bool,
-    /// Draw no figure.
-    #[arg(long)]
-    pub(super) no_plot: bool,
-}
-
-impl Options {
-    /// Number of runs at the same time.
-    pub(super) fn workers(&self) -> usize {
-        self.workers.count()
-    }
-}
-
-/// The folder of a study, which no other process writes to meanwhile.
+/// The folder of a study, in which only processes of the same study write meanwhile.
 pub(super) struct Place {
     pub(super) folder: Folder,
     /// Is set when the command is to end.
@@ -50,35 +24,45 @@ pub(super) struct Place {
 }
 
 impl Place {
-    /// Makes the folder for the results of a file, by default in that of the study. Refuses one in
-    /// which other programs have files of the names that the study writes: tables and the like, and
-    /// figures.
+    /// Makes the folder for the results of a study with these figures and runs; a study of a
+    /// verification case has none. Refuses one in which other programs have files of the names that
+    /// the study writes.
     pub(super) fn open(
-        study: &str,
-        file: &Path,
-        options: &Options,
-        files: impl Iterator<Item = String>,
+        arguments: &Arguments,
+        study: StudyName,
         figures: &[String],
+        runs: Option<&Comparison>,
         console: &Console,
     ) -> Result<Self, Failure> {
+        let name = study.name();
         let by_default = || {
-            let name = file.file_stem().unwrap_or_default();
-            Path::new("results").join(study).join(name)
+            let stem = arguments.file.file_stem().unwrap_or_default();
+            Path::new("results").join(name).join(stem)
         };
-        let root = options.out.clone().unwrap_or_else(by_default);
-        let figures = figures.iter().filter(|_| !options.no_plot);
-        let files = files.map(PathBuf::from);
+        let folder = Folder::new(arguments.out.clone().unwrap_or_else(by_default));
+        let root = folder.root();
+        let tables = ["runs", "failed", name].map(|it| format!("{it}.csv"));
+        let files = ["sweep.json".to_owned(), format!("{name}.json")];
+        let files = files.into_iter().chain(tables).map(PathBuf::from);
+        let figures = figures.iter().filter(|_| !arguments.no_plot);
         let names = files.chain(folders::files_of_figures(figures));
-        folders::refuse_foreign(&root, names, ANOTHER_FOLDER)?;
+        folders::refuse_foreign(root, names, ANOTHER_FOLDER)?;
+        if folder.read_sweep().is_ok_and(|it| it.study.is_none()) {
+            let message = "this folder holds the results of a sweep; choose another one with --out";
+            return Err(Failure::refused(message).at(root));
+        }
         let stop = interrupt::stop_on_signal(console)?;
-        folders::make(&root)?;
-        let folder = Folder::new(&root);
+        match runs {
+            Some(_) => folder.create()?,
+            None => folders::make(root)?,
+        }
         let wait = |holder: &_| folders::tell_of_waiting(&folder, holder, console);
-        let access = folder.lock(&wait).map_err(|error| match error {
-            FolderError::Locked { .. } => Failure::refused(error),
-            _ => Failure::failed(error),
-        })?;
-        store::remove_leftovers(&root).map_err(Failure::failed)?;
+        let access = match runs {
+            Some(runs) if !arguments.force => {
+                folder.open(folder.enter(&runs.sweep, &wait)?, &runs.sweep)?
+            }
+            _ => folder.lock(&wait)?,
+        };
         Ok(Self {
             folder,
             stop,
@@ -91,53 +75,56 @@ impl Place {
         self.folder.root().join(name)
     }
 
-    /// What is wished of the runs.
-    fn wishes<'a>(&self, watch: &'a (dyn Fn(Event<'_>) + Sync)) -> Wishes<'a> {
-        Wishes {
+    /// Makes what is left of the runs of a study, of which `table` has rows, and writes the table
+    /// of all.
+    pub(super) fn make(
+        &self,
+        comparison: &Comparison,
+        arguments: &Arguments,
+        mut table: RunTable,
+        console: &Console,
+    ) -> Result<(RunTable, Tally), Failure> {
+        let workers = arguments.workers.count();
+        let rounds = Rounds {
+            folder: &self.folder,
+            workers,
             stop: self.stop,
-            resume: true,
-            watch,
+            checkpoint_interval: DEFAULT_INTERVAL,
+            force: arguments.force,
+            shard: arguments.shard.as_ref(),
+            console,
+        };
+        let plan = table.applied_to(rounds.plan(comparison.jobs.clone())?);
+        let is_row_alone = |it: &&(Job, Standing)| it.1 == Standing::Labelled;
+        let rows_alone = plan.jobs.iter().filter(is_row_alone).map(|_| None);
+        builds::tell_of_others("row", rows_alone, console);
+        warn_of_days(comparison, &plan, workers, console);
+        let run = rounds.run(&comparison.sweep, &plan)?;
+        let is_left_to_others = run.is_left_to_others(console);
+        if !is_left_to_others {
+            table.add_records(comparison, &self.folder, workers)?;
+            table.write(comparison, &self.folder)?;
         }
+        run.tell_of_failures(&comparison.sweep, console);
+        if let Some(error) = run.report.halted {
+            return Err(Failure::failed(error));
+        }
+        let tally = Tally {
+            folder: self.folder.root().to_owned(),
+            runs: comparison.jobs.len(),
+            done_before: run.done_before,
+            run_now: run.report.finished,
+            elsewhere: run.report.elsewhere,
+            left: run.report.left,
+            left_to_others: run.report.others,
+            failed: run.report.failures.len(),
+            interrupted: self.stop.load(Ordering::Relaxed) && run.report.left > 0,
+            workers,
+            seconds: run.seconds,
+            cpu_seconds: run.report.cpu_seconds,
+        };
+        Ok((table, tally))
     }
-
-    /// Whether runs are left because the command was told to end.
-    fn is_interrupted(&self, left: usize) -> bool {
-        self.stop.load(Ordering::Relaxed) && left > 0
-    }
-}
-
-/// Makes the runs of a study by `run`, which gets a callback for events, and shows the progress.
-/// Returns the result of `run` and its duration (s). Runs for which `is_known` is true are done
-/// already.
-fn with_progress<T>(
-    jobs: &[Job],
-    is_known: &dyn Fn(&Job) -> bool,
-    name: &(dyn Fn(&Job) -> String + Sync),
-    ended: &(dyn Fn(&Job, &RunRecord) -> String + Sync),
-    console: &Console,
-    run: impl FnOnce(&(dyn Fn(Event<'_>) + Sync)) -> T,
-) -> (T, f64) {
-    let done = jobs.iter().filter(|job| is_known(job));
-    let (jobs_done, steps_done) =
-        done.fold((0, 0), |(jobs, sum), job| (jobs + 1, sum + job.work()));
-    if jobs_done > 0 {
-        let runs = format::count(jobs.len(), "run");
-        console.note(format_args!("{jobs_done} of {runs} are done already"));
-    }
-    let progress = Progress::new(
-        console,
-        Work {
-            jobs: jobs.len(),
-            jobs_done,
-            steps: jobs.iter().map(Job::work).sum(),
-            steps_done,
-            unit: job::unit_of(jobs),
-            head: String::new(),
-        },
-    );
-    let watch = |event: Event<'_>| job::tell(event, &progress, name, ended);
-    let result = run(&watch);
-    (result, progress.finish())
 }
 
 /// A study that takes longer than this says so before it begins (s).
@@ -147,15 +134,9 @@ const LONG: f64 = 86_400.0;
 const SLOWEST_RATE: f64 = 5e5;
 
 /// Says so if what is left of a comparison will take longer than a day.
-fn warn_of_days(
-    comparison: &Comparison,
-    is_known: &dyn Fn(&Job) -> bool,
-    workers: usize,
-    console: &Console,
-) {
-    let jobs = comparison.jobs.iter();
+fn warn_of_days(comparison: &Comparison, plan: &Plan, workers: usize, console: &Console) {
     let all: u64 = comparison.jobs.iter().map(Job::work).sum();
-    let left: u64 = jobs.filter(|job| !is_known(job)).map(Job::work).sum();
+    let left: u64 = plan.pending().map(Job::work).sum();
     if (left as f64) < LONG * SLOWEST_RATE * workers as f64 {
         return;
     }
@@ -174,61 +155,6 @@ fn warn_of_days(
     }
 }
 
-/// Makes what is left of the runs of a study, and says what became of them.
-pub(super) fn make(
-    comparison: &Comparison,
-    options: &Options,
-    place: &Place,
-    known: KnownRuns,
-    console: &Console,
-) -> Result<(StudyReport, Tally), Failure> {
-    let ids: HashSet<String> = known.rows.iter().map(|row| row.id.clone()).collect();
-    let settings = comparison.settings_of_runs();
-    let named = |id: &str, values: &[f64], seed: u64| {
-        let point = describe(comparison.axes(), values, seed);
-        let setting = settings.get(id).map(|it| format!("{it}, "));
-        setting.unwrap_or_default() + &point
-    };
-    let name = |job: &Job| named(&job.id, &job.values, job.seed);
-    let ended = |job: &Job, record: &RunRecord| {
-        let measured = comparison.measurement.measure(record);
-        let label = measured.map_or("not measured", |it| it.label.name);
-        format!("{label}: {}", name(job))
-    };
-    let is_known = |job: &Job| ids.contains(&job.id);
-    warn_of_days(comparison, &is_known, options.workers(), console);
-    let jobs = &comparison.jobs;
-    let (report, seconds) = with_progress(jobs, &is_known, &name, &ended, console, |watch| {
-        let runs = StudyRuns {
-            comparison,
-            folder: &place.folder,
-            backend: &LocalThreads::new(options.workers()),
-            wishes: place.wishes(watch),
-        };
-        runs.run(known)
-    });
-    let report = report.map_err(Failure::failed)?;
-    let made = &report.made;
-    let tally = Tally {
-        folder: place.folder.root().to_owned(),
-        runs: report.rows.len(),
-        done_before: report.known,
-        run_now: made.finished,
-        left: made.left,
-        failed: made.failures.len(),
-        interrupted: place.is_interrupted(made.left),
-        workers: options.workers(),
-        seconds,
-        cpu_seconds: made.cpu_seconds,
-    };
-    let failures = made.failures.iter().map(|failure| {
-        let name = named(&failure.id, &failure.values, failure.seed);
-        format!("{name}: {}", failure.reason)
-    });
-    tally.print(&failures.collect::<Vec<_>>(), console);
-    Ok((report, tally))
-}
-
 /// What became of the runs of a study: what is printed of them, and what every `--json` has.
 #[derive(Default, Serialize)]
 pub(super) struct Tally {
@@ -237,7 +163,12 @@ pub(super) struct Tally {
     pub(super) runs: usize,
     pub(super) done_before: usize,
     pub(super) run_now: usize,
+    /// Runs that other processes made meanwhile.
+    #[serde(skip)]
+    pub(super) elsewhere: usize,
     pub(super) left: usize,
+    /// Runs of other shards without a result.
+    pub(super) left_to_others: usize,
     pub(super) failed: usize,
     pub(super) interrupted: bool,
     pub(super) workers: usize,
@@ -247,10 +178,27 @@ pub(super) struct Tally {
 }
 
 impl Tally {
-    /// Says what was made, and what failed.
-    fn print(&self, failures: &[String], console: &Console) {
+    /// The tally of these runs and then of all, for which these were done before.
+    pub(super) fn and(self, all: Self) -> Self {
+        let done = self.run_now + self.elsewhere;
+        Self {
+            done_before: all.done_before.saturating_sub(done),
+            run_now: self.run_now + all.run_now,
+            elsewhere: self.elsewhere + all.elsewhere,
+            seconds: self.seconds + all.seconds,
+            cpu_seconds: self.cpu_seconds + all.cpu_seconds,
+            ..all
+        }
+    }
+
+    /// Says what was made.
+    pub(super) fn print(&self, console: &Console) {
+        let elsewhere = match self.elsewhere {
+            0 => String::new(),
+            runs => format!("{runs} by another process, "),
+        };
         console.result(format_args!(
-            "{}: {} made now in {}, {} of CPU time, {} before, {} left",
+            "{}: {} made now in {}, {} of CPU time, {elsewhere}{} before, {} left",
             format::count(self.runs, "run"),
             self.run_now,
             format::duration(self.seconds),
@@ -258,12 +206,14 @@ impl Tally {
             self.done_before,
             self.left
         ));
-        name_first(failures, |name| {
-            console.error(format_args!("failed: {name}"));
-        });
         if self.left > 0 {
             console.note("interrupted. Go on with the same command");
         }
+    }
+
+    /// Whether all runs are there, or have failed.
+    pub(super) fn is_whole(&self) -> bool {
+        self.left + self.left_to_others == 0
     }
 
     /// How the command ends.

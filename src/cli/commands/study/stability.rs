@@ -3,7 +3,7 @@
 use super::{Conclusion, Study};
 use crate::cli::exit::Failure;
 use phase::classify::NUMERICS;
-use phase::plot::stability as figure;
+use phase::plot::{self, StudyResult};
 use phase::record::Program;
 use phase::study::StudyName;
 use phase::study::comparison::{Comparison, RunRow};
@@ -24,14 +24,13 @@ impl Study for StabilityStudy {
     fn conclude(&self, rows: &[Option<RunRow>]) -> Result<Conclusion, Failure> {
         let tried = self.evaluate(rows);
         let lines: Vec<String> = tried.iter().map(line).collect();
+        let result = StudyResult::Stability(self, rows);
+        let drawn = plot::draw("stability", (result, &Program::current()));
         Ok(Conclusion {
             json: json!({ "integrators": tried }),
             text: lines.join("\n"),
             table: None,
-            figures: vec![(
-                "stability".to_owned(),
-                figure::draw(self, rows, &Program::current()),
-            )],
+            figures: vec![("stability".to_owned(), drawn)],
         })
     }
 }

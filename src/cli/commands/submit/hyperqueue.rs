@@ -1,11 +1,11 @@
 //! A job file of HyperQueue, one task for each line of jobs.
 
-use super::{Order, Submission};
+use super::{Handover, Submission};
 use crate::cli::exit::Failure;
 use crate::cli::format;
 
-pub(super) fn write(order: &Order<'_>) -> Result<Submission, Failure> {
-    let Order {
+pub(super) fn write(order: &Handover<'_>) -> Result<Submission, Failure> {
+    let Handover {
         program,
         file,
         out,

@@ -1,12 +1,12 @@
 //! A project of row: a directory for each line of jobs, which is done when it holds `done.json`.
 
-use super::{Order, Submission, cannot_write, clock};
+use super::{Handover, Submission, cannot_write, clock};
 use crate::cli::exit::Failure;
 use crate::cli::format;
 use std::fs;
 
-pub(super) fn write(order: &Order<'_>) -> Result<Submission, Failure> {
-    let Order {
+pub(super) fn write(order: &Handover<'_>) -> Result<Submission, Failure> {
+    let Handover {
         program,
         file,
         out,

@@ -1,6 +1,6 @@
 //! An array of Slurm, one task for each shard that lacks runs.
 
-use super::{Order, Submission, clock};
+use super::{Handover, Submission, clock};
 use crate::cli::exit::Failure;
 use crate::cli::format;
 use phase::sweep::Shard;
@@ -10,11 +10,11 @@ use std::process::Command;
 /// Largest array where Slurm does not say it, its default.
 const USUAL_ARRAY: usize = 1001;
 
-pub(super) fn write(order: &Order<'_>) -> Result<Submission, Failure> {
+pub(super) fn write(order: &Handover<'_>) -> Result<Submission, Failure> {
     // Tasks are numbered from 1, and their largest number is below the size.
     let of = order.tasks(largest_array() - 1);
     let shards = shards_with_missing(order, of);
-    let Order {
+    let Handover {
         program,
         file,
         out,
@@ -80,7 +80,7 @@ pub(super) fn write(order: &Order<'_>) -> Result<Submission, Failure> {
 }
 
 /// Numbers of the shards that lack runs.
-fn shards_with_missing(order: &Order<'_>, of: usize) -> Vec<usize> {
+fn shards_with_missing(order: &Handover<'_>, of: usize) -> Vec<usize> {
     let parts = Shard::parts(&order.next.jobs, of);
     let missing = order.next.missing.iter();
     let numbers: BTreeSet<usize> = missing.map(|&place| parts[place]).collect();

@@ -1,8 +1,8 @@
 //! The rounds of a refined sweep, as people see them.
 
-use super::rounds::{Part, Rounds, Run, tell_of_plan};
 use crate::cli::exit::Failure;
 use crate::cli::figures;
+use crate::cli::rounds::{Part, Rounds, Run, tell_of_plan};
 use crate::cli::{format, refined};
 use phase::refine::{Finish, Settings};
 use phase::sweep::{Plan, Pool, Refinement, Report, Sweep, WatchRounds};
@@ -11,61 +11,67 @@ use std::time::{Duration, Instant};
 /// Time between two notes while rounds are chosen.
 const BETWEEN_NOTES: Duration = Duration::from_secs(5);
 
-impl Rounds<'_> {
-    /// Runs the rounds. Gives the plan of all jobs, what was run, and how far refining is.
-    pub(super) fn refine(&self, sweep: &Sweep) -> Result<(Plan, Run, Refinement), Failure> {
-        let mut watcher = Watcher {
-            rounds: self,
-            run: None,
-            told: Instant::now(),
-        };
-        let done = self.with_pool(sweep, |pool| pool.refine(&mut watcher))?;
-        self.tell_of_end(sweep, &done.refinement, done.end);
-        let report = done.report;
-        let done_before = done.plan.labelled().count();
-        let run = Run {
-            done_before: done_before.saturating_sub(report.finished + report.elsewhere),
-            report,
-            next: done.next,
-            ..watcher.run.unwrap_or_default()
-        };
-        Ok((done.plan, run, done.refinement))
-    }
+/// Runs the rounds of a sweep, and draws each if `draws`. Gives the plan of all jobs, what was run,
+/// and how far refining is.
+pub(super) fn refine(
+    rounds: &Rounds<'_>,
+    sweep: &Sweep,
+    draws: bool,
+) -> Result<(Plan, Run, Refinement), Failure> {
+    let mut watcher = Watcher {
+        rounds,
+        draws,
+        run: None,
+        told: Instant::now(),
+    };
+    let done = rounds.with_pool(sweep, |pool| pool.refine(&mut watcher))?;
+    tell_of_end(rounds, sweep, &done.refinement, done.end);
+    let report = done.report;
+    let done_before = done.plan.labelled().count();
+    let run = Run {
+        done_before: done_before.saturating_sub(report.finished + report.elsewhere),
+        report,
+        next: done.next,
+        ..watcher.run.unwrap_or_default()
+    };
+    Ok((done.plan, run, done.refinement))
+}
 
-    /// What the progress of a round is part of.
-    fn part(&self, sweep: &Sweep, refinement: &Refinement) -> Part {
-        let (Some(settings), true) = (&sweep.refine, refinement.rounds() > 0) else {
-            return Part::default();
-        };
-        let widest = match refinement.rounds() {
-            1 => "coarse grid".to_owned(),
-            _ => refined::describe_widest(sweep, refinement.refining()),
-        };
-        Part {
-            head: format!("round {}, {widest}", refinement.rounds()),
-            jobs: Some(settings.budget),
-        }
+/// What the progress of a round is part of.
+fn part(sweep: &Sweep, refinement: &Refinement) -> Part {
+    let (Some(settings), true) = (&sweep.refine, refinement.rounds() > 0) else {
+        return Part::default();
+    };
+    let widest = match refinement.rounds() {
+        1 => "coarse grid".to_owned(),
+        _ => refined::describe_widest(sweep, refinement.refining()),
+    };
+    Part {
+        head: format!("round {}, {widest}", refinement.rounds()),
+        jobs: Some(settings.budget),
     }
+}
 
-    fn tell_of_end(&self, sweep: &Sweep, refinement: &Refinement, end: Option<Finish>) {
-        let (Some(end), Some(settings)) = (end, &sweep.refine) else {
-            return;
-        };
-        self.console.result(format_args!(
-            "refined with {}: {}; {}",
-            format::count(refinement.runs(), "run"),
-            refined::describe_end(settings, end),
-            refined::describe_widest(sweep, refinement.refining())
-        ));
-        if let Some(gap) = refinement.gap().filter(|gap| gap.radius > 0.0) {
-            self.console.note(refined::describe_gap(sweep, &gap));
-        }
+fn tell_of_end(rounds: &Rounds<'_>, sweep: &Sweep, refinement: &Refinement, end: Option<Finish>) {
+    let (Some(end), Some(settings)) = (end, &sweep.refine) else {
+        return;
+    };
+    rounds.console.result(format_args!(
+        "refined with {}: {}; {}",
+        format::count(refinement.runs(), "run"),
+        refined::describe_end(settings, end),
+        refined::describe_widest(sweep, refinement.refining())
+    ));
+    if let Some(gap) = refinement.gap().filter(|gap| gap.radius > 0.0) {
+        rounds.console.note(refined::describe_gap(sweep, &gap));
     }
 }
 
 /// Shows rounds to people.
 struct Watcher<'a> {
     rounds: &'a Rounds<'a>,
+    /// Whether each round is drawn.
+    draws: bool,
     /// The runs so far, for the report.
     run: Option<Run>,
     /// When progress was last reported.
@@ -84,7 +90,7 @@ impl WatchRounds for Watcher<'_> {
         if self.run.is_none() {
             tell_of_plan(plan, self.rounds.console);
         }
-        let part = self.rounds.part(pool.sweep, refinement);
+        let part = part(pool.sweep, refinement);
         let mut round = self.rounds.run_part(plan, pool, part)?;
         let report = std::mem::take(&mut round.report);
         round.seconds += self.run.take().map_or(0.0, |before| before.seconds);
@@ -115,7 +121,7 @@ impl WatchRounds for Watcher<'_> {
                 refined::describe_widest(pool.sweep, refinement.refining())
             ));
         }
-        if self.rounds.draws && refinement.runs() > 0 {
+        if self.draws && refinement.runs() > 0 {
             figures::draw_round(pool.folder, pool.sweep, refinement.table())?;
         }
         Ok(())

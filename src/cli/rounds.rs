@@ -1,9 +1,9 @@
-//! Runs the jobs of a sweep and watches them. The rounds of refined sweeps are in `refining.rs`.
+//! Runs the jobs of sweeps and of studies and watches them. Here a backend is chosen.
 
-use crate::cli::console::{Console, name_first};
-use crate::cli::exit::Failure;
-use crate::cli::progress::{Progress, Work};
-use crate::cli::{builds, format, job};
+use super::console::{Console, name_first};
+use super::exit::Failure;
+use super::progress::{Progress, Work};
+use super::{builds, format, job};
 use phase::grid::describe;
 use phase::record::{Outcome, RunRecord};
 use phase::run::model_of;
@@ -23,25 +23,24 @@ pub(super) struct Rounds<'a> {
     pub(super) stop: &'a AtomicBool,
     pub(super) checkpoint_interval: Duration,
     pub(super) force: bool,
-    /// Whether figures are drawn.
-    pub(super) draws: bool,
     /// Which jobs are run, if not all.
     pub(super) shard: Option<&'a Shard>,
     pub(super) console: &'a Console,
 }
 
 impl Rounds<'_> {
-    /// Runs all points of the grid. Gives the plan, and what was run.
-    pub(super) fn run(&self, sweep: &Sweep, jobs: Vec<Job>) -> Result<(Plan, Run), Failure> {
-        self.with_pool(sweep, |pool| {
-            let plan = match self.force {
-                true => Plan::afresh(jobs),
-                false => pool.plan(jobs)?,
-            };
-            tell_of_plan(&plan, self.console);
-            let run = self.run_part(&plan, pool, Part::default())?;
-            Ok((plan, run))
+    /// What is done of these jobs, and what is left.
+    pub(super) fn plan(&self, jobs: Vec<Job>) -> Result<Plan, Failure> {
+        Ok(match self.force {
+            true => Plan::afresh(jobs),
+            false => Plan::of_shard(self.folder, jobs, self.shard, self.workers)?,
         })
+    }
+
+    /// Runs what is left of a plan.
+    pub(super) fn run(&self, sweep: &Sweep, plan: &Plan) -> Result<Run, Failure> {
+        tell_of_plan(plan, self.console);
+        self.with_pool(sweep, |pool| self.run_part(plan, pool, Part::default()))
     }
 
     /// Calls `act` with the pool that runs the jobs of a sweep.
@@ -168,7 +167,7 @@ impl Run {
     pub(super) fn is_left_to_others(&self, console: &Console) -> bool {
         if self.report.others > 0 {
             console.result(format_args!(
-                "{} left to other shards: the last one labels the runs and draws the figures",
+                "{} left to other shards, of which the last one writes tables and figures",
                 format::count(self.report.others, "job")
             ));
         }
@@ -182,24 +181,17 @@ impl Run {
     }
 
     /// Prints what was done and names what went wrong.
-    pub(super) fn print(
-        &self,
-        plan: &Plan,
-        sweep: &Sweep,
-        console: &Console,
-    ) -> Result<(), Failure> {
+    pub(super) fn print(&self, plan: &Plan, sweep: &Sweep, console: &Console) {
         console.result(self.summary(plan, sweep));
-        let names = |jobs: &[JobFailure]| -> Vec<String> {
-            let named = |job: &JobFailure| {
-                let name = describe(&sweep.axes, &job.values, job.seed);
-                format!("{name} (job {}): {}", job.id, job.reason)
-            };
-            jobs.iter().map(named).collect()
-        };
-        name_first(&names(&self.unstable), |name| {
+        name_first(&names(&self.unstable, sweep), |name| {
             console.note(format_args!("unstable: {name}"));
         });
-        name_first(&names(&self.report.failures), |name| {
+        self.tell_of_failures(sweep, console);
+    }
+
+    /// Names the jobs that failed.
+    pub(super) fn tell_of_failures(&self, sweep: &Sweep, console: &Console) {
+        name_first(&names(&self.report.failures, sweep), |name| {
             console.error(format_args!("failed: {name}"));
         });
         if let Some(error) = &self.report.unnoted {
@@ -207,7 +199,6 @@ impl Run {
                 "the table of failed jobs could not be written: {error}"
             ));
         }
-        Ok(())
     }
 
     /// How much was done, how fast, and what is left.
@@ -250,6 +241,15 @@ impl Run {
         }
         text
     }
+}
+
+/// Names jobs, each with what went wrong.
+fn names(jobs: &[JobFailure], sweep: &Sweep) -> Vec<String> {
+    let named = |job: &JobFailure| {
+        let name = describe(&sweep.axes, &job.values, job.seed);
+        format!("{name} (job {}): {}", job.id, job.reason)
+    };
+    jobs.iter().map(named).collect()
 }
 
 /// Says what is done already, and what is run again and why.
