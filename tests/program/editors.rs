@@ -6,9 +6,9 @@ use serde_json::Value;
 use std::path::{Path, PathBuf};
 
 /// The commands that answer in JSON are tested below; these are all.
-const COMMANDS: [&str; 15] = [
+const COMMANDS: [&str; 18] = [
     "sweep", "classify", "plot", "run", "export", "view", "check", "cost", "compare", "fit",
-    "study", "verify", "status", "new", "generate",
+    "study", "verify", "jobs", "submit", "status", "merge", "new", "generate",
 ];
 
 #[test]
@@ -321,7 +321,7 @@ fn a_sweep_answers_in_json() {
 
     let status = answer(&place, &["status", "results"], 0);
     assert_eq!(status["folders"][0]["done"], 6);
-    assert_eq!(status["folders"][0]["running"], false);
+    assert_eq!(status["folders"][0]["running"], serde_json::json!([]));
 
     let more = "[sieves.settle]\ntolerance = 1e-30".to_owned();
     let edited = TinySweep {

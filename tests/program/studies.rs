@@ -119,6 +119,38 @@ fn processes_share_the_runs_of_a_study() {
     }
 }
 
+/// Shards make each run of a study once, and the last one says what follows.
+#[test]
+fn shards_make_the_runs_of_a_study() {
+    for (text, runs) in studies() {
+        let place = Workplace::new();
+        place.write("study.toml", &text);
+        let mut made = 0;
+        for shard in ["2/3", "1/3", "3/3"] {
+            let command = [
+                "study",
+                "study.toml",
+                "--out",
+                "shared",
+                "--shard",
+                shard,
+                "--json",
+            ];
+            let answer = json(&place.phase(&command).code(0));
+            made += answer["run_now"].as_u64().unwrap();
+            assert_eq!(answer["left_to_others"].as_u64().unwrap(), runs - made);
+            assert_eq!(answer["finding"].is_null(), made < runs);
+        }
+        let alone = ["study", "study.toml", "--out", "alone", "--no-plot"];
+        place.phase(&alone).code(0);
+        for table in ["runs.csv", "accuracy.csv"] {
+            let [shared, alone] =
+                ["shared", "alone"].map(|it| but_times(&place.read(&format!("{it}/{table}"))));
+            assert!(shared.len() > 3 && shared == alone, "{table}");
+        }
+    }
+}
+
 /// Symptom: without their table all runs of a study were made again. Of published studies there is
 /// the table alone.
 #[test]
