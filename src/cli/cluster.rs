@@ -1,12 +1,70 @@
-//! What jobs will take on other machines.
+//! What is handed to other machines: the runs of a sweep or study, and how long they take.
 
 use super::exit::Failure;
+use super::folders;
 use phase::cost::{self, Forecast};
-use phase::sweep::{Job, NextJobs};
+use phase::study::comparison::RunTable;
+use phase::study::{AnyFile, AnyStudy};
+use phase::sweep::{Folder, Job, NextJobs, Plan};
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 /// How long jobs are tried for a forecast.
 const TRIAL: Duration = Duration::from_secs(4);
+
+/// The jobs of a file, and what runs them.
+pub(super) struct Handed {
+    pub(super) next: NextJobs,
+    pub(super) folder: Folder,
+    /// The command that runs the file.
+    pub(super) command: &'static str,
+}
+
+impl Handed {
+    /// The next jobs of a sweep or study.
+    pub(super) fn load(
+        file: &Path,
+        out: Option<&PathBuf>,
+        workers: usize,
+    ) -> Result<Self, Failure> {
+        match AnyFile::load(file)? {
+            AnyFile::Sweep(sweep) => {
+                let root = out.cloned();
+                let folder = Folder::new(root.unwrap_or_else(|| folders::default_folder(file)));
+                Ok(Self {
+                    next: NextJobs::new(&folder, &sweep, workers)?,
+                    folder,
+                    command: "sweep",
+                })
+            }
+            AnyFile::Study(study) => Self::of_study(&study, file, out, workers),
+            AnyFile::Scene(_) => {
+                Err(Failure::refused("this is a scene, one run: `phase run` makes it").at(file))
+            }
+        }
+    }
+
+    fn of_study(
+        study: &AnyStudy,
+        file: &Path,
+        out: Option<&PathBuf>,
+        workers: usize,
+    ) -> Result<Self, Failure> {
+        let Some(comparison) = study.comparison() else {
+            let message = "the runs of a verification case take seconds: `phase study` makes them";
+            return Err(Failure::refused(message).at(file));
+        };
+        let by_default = || folders::default_folder_of_study(study.name(), file);
+        let folder = Folder::new(out.cloned().unwrap_or_else(by_default));
+        let table = RunTable::read(comparison, &folder).map_err(Failure::refused)?;
+        let plan = Plan::new(&folder, comparison.jobs.clone(), workers)?;
+        Ok(Self {
+            next: NextJobs::of_plan(table.applied_to(plan)),
+            folder,
+            command: "study",
+        })
+    }
+}
 
 /// What the jobs at these places take on one core of this machine.
 pub(super) fn forecast(next: &NextJobs, places: &[usize]) -> Result<Forecast, Failure> {

@@ -3,6 +3,7 @@
 use super::console::Console;
 use super::exit::{Exit, Failure};
 use phase::store::{self, Holder};
+use phase::study::StudyName;
 use phase::sweep::Folder;
 use serde::Serialize;
 use std::fs::File;
@@ -15,6 +16,12 @@ pub(super) const ANOTHER_FOLDER: &str = "choose another folder with --out";
 /// The results folder of a sweep file: `results/NAME`.
 pub(super) fn default_folder(file: &Path) -> PathBuf {
     Path::new("results").join(file.file_stem().unwrap_or("sweep".as_ref()))
+}
+
+/// The results folder of a study file: `results/STUDY/NAME`.
+pub(super) fn default_folder_of_study(study: StudyName, file: &Path) -> PathBuf {
+    let stem = file.file_stem().unwrap_or_default();
+    Path::new("results").join(study.name()).join(stem)
 }
 
 /// The outcome of a results folder, as `--json` prints it.

@@ -2,7 +2,8 @@
 
 use super::StudyName;
 use super::ablation::{Ablation, AblationError, AblationOptions};
-use super::accuracy::{self, AccuracyStudy};
+use super::accuracy::{self, AccuracyStudy, Subject};
+use super::comparison::Comparison;
 use super::stability::{self, StabilityStudy};
 use crate::document::{Document, Problem};
 use crate::run::{self, Reading};
@@ -86,6 +87,18 @@ impl AnyStudy {
                 refuse(key, message, help)
             }
             _ => Self::of_document(&document, options),
+        }
+    }
+
+    /// What it runs; none for a verification case, whose runs leave nothing.
+    pub fn comparison(&self) -> Option<&Comparison> {
+        match self {
+            Self::Stability(study) => Some(&study.comparison),
+            Self::Ablation(study) => Some(&study.comparison),
+            Self::Accuracy(study) => match &study.subject {
+                Subject::Scene(comparison) => Some(comparison),
+                Subject::Case(_) => None,
+            },
         }
     }
 

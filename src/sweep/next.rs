@@ -24,13 +24,16 @@ impl NextJobs {
             return Self::of_round(folder, sweep, workers);
         }
         let jobs = sweep.jobs().map_err(RefinementError::from)?;
-        let plan = Plan::new(folder, jobs, workers)?;
+        Ok(Self::of_plan(Plan::new(folder, jobs, workers)?))
+    }
+
+    /// The jobs of a plan.
+    pub fn of_plan(plan: Plan) -> Self {
         let pending: HashSet<&str> = plan.pending().map(|job| job.id.as_str()).collect();
-        let missing = missing(plan.jobs.iter().map(|(job, _)| job), &pending);
-        Ok(Self {
-            missing,
+        Self {
+            missing: missing(plan.jobs.iter().map(|(job, _)| job), &pending),
             jobs: plan.jobs.into_iter().map(|(job, _)| job).collect(),
-        })
+        }
     }
 
     fn of_round(folder: &Folder, sweep: &Sweep, workers: usize) -> Result<Self, RoundsError> {

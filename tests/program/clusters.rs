@@ -123,6 +123,30 @@ fn rounds_follow_each_other() {
     );
 }
 
+/// A study goes the same way as a sweep.
+#[cfg(unix)]
+#[test]
+fn a_study_goes_through_an_array() {
+    let place = Workplace::new();
+    with_slurm(&place, 1001);
+    let text = "study = \"accuracy\"\nseeds.count = 3\n[scene]\n\
+                spheres = { count = 1, radius = 0.004, density = 1000.0 }\n\
+                start = { kind = \"list\", spheres = [{ position = [0, 0, 1] }] }\n\
+                gravity = { acceleration = 9.8 }\n\
+                time = { dt = 1e-3, duration = 0.1, frame_interval = 1e-2 }\n\
+                [[ladder]]\nkey = \"time.dt\"\nvalues = [5e-4, 2.5e-4]\n";
+    place.write("fall.toml", text);
+    submit(&place, &["fall.toml", "--to", "slurm", "--tasks", "2"]).code(0);
+    let folder = place.path("results/accuracy/fall");
+    let output = place.read("output");
+    assert!(folder.join("accuracy.json").exists(), "{output}");
+    assert!(folder.join("runs.csv").exists(), "{output}");
+    place.phase(&["jobs", "fall.toml", "--missing"]).code(0);
+    submit(&place, &["fall.toml", "--to", "slurm"])
+        .code(0)
+        .says("no run is missing");
+}
+
 /// Only shards that lack runs are submitted again, and a sweep whose tasks make no run is not
 /// submitted for ever.
 #[cfg(unix)]

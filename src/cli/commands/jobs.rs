@@ -1,17 +1,18 @@
 //! `phase jobs`: the jobs of a sweep as lines, for programs that hand them out.
 
+use crate::cli::cluster::{self, Handed};
 use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::options::Workers;
-use crate::cli::{cluster, folders, values};
-use phase::sweep::{Folder, NextJobs, Shard};
+use crate::cli::values;
+use phase::sweep::Shard;
 use serde::Serialize;
 use std::path::PathBuf;
 use std::time::Duration;
 
-/// List the jobs of a sweep, a line each, for programs that hand them out.
+/// List the jobs of a sweep or study, a line each, for programs that hand them out.
 ///
-/// `phase sweep FILE --job LINE` runs what a line lists. Of a refined sweep these are the jobs of
+/// `phase sweep FILE --job LINE`, or `phase study`, runs what a line lists. Of a refined sweep these are the jobs of
 /// the next round.
 #[derive(clap::Args)]
 #[command(after_help = "\
@@ -20,9 +21,9 @@ Examples: in chunks of 20 minutes through HyperQueue, or one by one through GNU 
   hq submit --each-line todo bash -c 'phase sweep sweeps/steel.toml -j 1 --job $HQ_ENTRY'
   phase jobs sweeps/quick.toml | parallel phase sweep sweeps/quick.toml -j 1 --job {}")]
 pub(crate) struct Arguments {
-    /// The sweep file (TOML).
+    /// The sweep or study file (TOML).
     file: PathBuf,
-    /// The results folder [default: results/NAME, the sweep file's name without .toml].
+    /// The results folder [default: that of `phase sweep` or `phase study`].
     #[arg(short, long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Only jobs that have no good record in the results folder.
@@ -37,11 +38,8 @@ pub(crate) struct Arguments {
 }
 
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
-    let sweep = phase::sweep::load(&arguments.file)?;
-    let root = arguments.out.clone();
-    let folder = Folder::new(root.unwrap_or_else(|| folders::default_folder(&arguments.file)));
     let workers = arguments.workers.count();
-    let next = NextJobs::new(&folder, &sweep, workers)?;
+    let next = Handed::load(&arguments.file, arguments.out.as_ref(), workers)?.next;
     let places = match arguments.missing {
         true => next.missing.clone(),
         false => (0..next.jobs.len()).collect(),

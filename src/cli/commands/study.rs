@@ -63,8 +63,12 @@ pub(crate) struct Arguments {
     force: bool,
     /// Make one of N parts of equal work, in any number of processes on any machines: I/N, or `auto`
     /// for the task of a Slurm array. The last one says what follows.
-    #[arg(long, value_name = "I/N", value_parser = values::part, conflicts_with = "force")]
+    #[arg(long, value_name = "I/N", value_parser = values::part)]
+    #[arg(conflicts_with_all = ["job", "force"])]
     shard: Option<Shard>,
+    /// Make the runs of a line that `phase jobs` printed.
+    #[arg(long, value_name = "LINE", conflicts_with = "force")]
+    job: Option<Shard>,
     /// Draw no figure.
     #[arg(long)]
     no_plot: bool,

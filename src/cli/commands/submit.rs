@@ -4,11 +4,12 @@ mod hyperqueue;
 mod row;
 mod slurm;
 
+use crate::cli::cluster::{self, Handed};
 use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
-use crate::cli::{cluster, folders, format, values};
+use crate::cli::{format, values};
 use phase::store;
-use phase::sweep::{Folder, NextJobs, Shard};
+use phase::sweep::{NextJobs, Shard};
 use serde::Serialize;
 use std::ffi::OsStr;
 use std::fs;
@@ -16,7 +17,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Duration;
 
-/// Hand what is missing of a sweep to Slurm, HyperQueue or row.
+/// Hand what is missing of a sweep or study to Slurm, HyperQueue or row.
 ///
 /// The script or job file is written into the results folder, as `cluster/`, for people to read and
 /// edit. Tasks that are asked to end leave checkpoints. The same command again hands over what is
@@ -29,12 +30,12 @@ Examples: look at the script first; then tasks of two hours on four cores each
 
 The results folder must be seen by all machines. docs/clusters.md says more.")]
 pub(crate) struct Arguments {
-    /// The sweep file (TOML).
+    /// The sweep or study file (TOML).
     file: PathBuf,
     /// The batch system.
     #[arg(long, value_name = "SYSTEM")]
     to: BatchSystem,
-    /// The results folder [default: results/NAME, the sweep file's name without .toml].
+    /// The results folder [default: that of `phase sweep` or `phase study`].
     #[arg(short, long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Most time of a task, such as 20m or 2h; tasks are cut to take half of it.
@@ -75,6 +76,8 @@ struct Handover<'a> {
     /// The program, the sweep file, the results folder, the folder of the script, and the folder
     /// in which all this is done: absolute, and as words of a shell.
     program: String,
+    /// The command that runs the file.
+    command: &'static str,
     file: String,
     out: String,
     place: PathBuf,
@@ -92,21 +95,18 @@ struct Submission {
 }
 
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
-    let sweep = phase::sweep::load(&arguments.file)?;
-    let root = arguments.out.clone();
-    let root = root.unwrap_or_else(|| folders::default_folder(&arguments.file));
-    let folder = Folder::new(&root);
-    let next = NextJobs::new(&folder, &sweep, arguments.jobs)?;
-    if next.missing.is_empty() {
+    let handed = Handed::load(&arguments.file, arguments.out.as_ref(), arguments.jobs)?;
+    let (folder, command) = (handed.folder.clone(), handed.command);
+    if handed.next.missing.is_empty() {
         console.result(format_args!(
-            "no run is missing; `phase sweep {}` labels the runs and draws the figures",
+            "no run is missing; `phase {command} {}` writes tables and figures",
             arguments.file.display()
         ));
         console.answer(&Answer::default());
         return Ok(Exit::Done);
     }
     folder.create()?;
-    let order = Handover::new(arguments, &folder, next)?;
+    let order = Handover::new(arguments, handed)?;
     fs::create_dir_all(&order.place).map_err(|it| cannot_write(&order.place, &it))?;
     let submission = match arguments.to {
         BatchSystem::Slurm => slurm::write(&order)?,
@@ -179,7 +179,12 @@ fn submit(commands: &[Vec<String>], console: &Console) -> Result<Vec<String>, Fa
 }
 
 impl<'a> Handover<'a> {
-    fn new(arguments: &'a Arguments, folder: &Folder, next: NextJobs) -> Result<Self, Failure> {
+    fn new(arguments: &'a Arguments, handed: Handed) -> Result<Self, Failure> {
+        let Handed {
+            next,
+            folder,
+            command,
+        } = handed;
         let forecast = cluster::forecast(&next, &next.missing)?;
         let work = |places: &mut dyn Iterator<Item = usize>| -> u64 {
             places.map(|place| next.jobs[place].work()).sum()
@@ -197,6 +202,7 @@ impl<'a> Handover<'a> {
             all_seconds: all,
             rate: forecast.rate,
             program: word(program.as_os_str())?,
+            command,
             file: word(absolute(&arguments.file)?.as_os_str())?,
             out: word(root.as_os_str())?,
             here: word(here.as_os_str())?,
@@ -242,6 +248,7 @@ impl<'a> Handover<'a> {
     fn write_next(&self, head: &str, system: &str) -> Result<[PathBuf; 2], Failure> {
         let Self {
             program,
+            command,
             file,
             out,
             here,
@@ -265,7 +272,7 @@ impl<'a> Handover<'a> {
              cd {here} || exit\n\
              {program} jobs {file} --out {out} --missing > {left} || exit\n\
              if [ ! -s {left} ]; then\n    \
-                 exec {program} sweep {file} --out {out} --jobs {jobs}\n\
+                 exec {program} {command} {file} --out {out} --jobs {jobs}\n\
              elif cmp -s {left} {todo}; then\n    \
                  echo \"the tasks made no run; see their output and failed.csv\" >&2\n    \
                  exit 1\n\

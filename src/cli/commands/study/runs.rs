@@ -11,7 +11,7 @@ use phase::study::StudyName;
 use phase::study::comparison::{Comparison, RunTable};
 use phase::sweep::{Access, Folder, Job, Plan, Standing};
 use serde::Serialize;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
@@ -35,10 +35,7 @@ impl Place {
         console: &Console,
     ) -> Result<Self, Failure> {
         let name = study.name();
-        let by_default = || {
-            let stem = arguments.file.file_stem().unwrap_or_default();
-            Path::new("results").join(name).join(stem)
-        };
+        let by_default = || folders::default_folder_of_study(study, &arguments.file);
         let folder = Folder::new(arguments.out.clone().unwrap_or_else(by_default));
         let root = folder.root();
         let tables = ["runs", "failed", name].map(|it| format!("{it}.csv"));
@@ -91,7 +88,7 @@ impl Place {
             stop: self.stop,
             checkpoint_interval: DEFAULT_INTERVAL,
             force: arguments.force,
-            shard: arguments.shard.as_ref(),
+            shard: arguments.shard.as_ref().or(arguments.job.as_ref()),
             console,
         };
         let plan = table.applied_to(rounds.plan(comparison.jobs.clone())?);

@@ -7,6 +7,7 @@ use crate::cli::format;
 pub(super) fn write(order: &Handover<'_>) -> Result<Submission, Failure> {
     let Handover {
         program,
+        command,
         file,
         out,
         here,
@@ -31,14 +32,14 @@ pub(super) fn write(order: &Handover<'_>) -> Result<Submission, Failure> {
     // A failed run is noted in failed.csv, and ends nothing else. A task that was killed is started
     // again, and continues from its checkpoints.
     for (id, line) in lines.iter().enumerate() {
-        let command = format!(
-            "cd {here} && {program} sweep {file} --out {out} --job {line} --jobs {cores} || \
+        let line_of_shell = format!(
+            "cd {here} && {program} {command} {file} --out {out} --job {line} --jobs {cores} || \
              [ $? -eq 1 ]"
         );
         text += &format!(
             "\n[[task]]\nid = {id}\ncommand = [\"bash\", \"-c\", {}]\ncrash_limit = 5\n\
              [[task.request]]\nresources = {{ \"cpus\" = {cores} }}\ntime_request = \"{time}s\"\n",
-            quoted(&command)
+            quoted(&line_of_shell)
         );
     }
     let [todo, next] = order.write_next("", "hyperqueue")?;

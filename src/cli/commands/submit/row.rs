@@ -8,6 +8,7 @@ use std::fs;
 pub(super) fn write(order: &Handover<'_>) -> Result<Submission, Failure> {
     let Handover {
         program,
+        command,
         file,
         out,
         here,
@@ -24,8 +25,8 @@ pub(super) fn write(order: &Handover<'_>) -> Result<Submission, Failure> {
     }
     let shards = order.path("shards")?;
     let cores = arguments.jobs;
-    let command = format!(
-        "cd {here} && {program} sweep {file} --out {out} --jobs {cores} --json --job \
+    let line = format!(
+        "cd {here} && {program} {command} {file} --out {out} --jobs {cores} --json --job \
          \"$(cat {shards}/{{directory}}/job)\" > {shards}/{{directory}}/answer.json && \
          mv {shards}/{{directory}}/answer.json {shards}/{{directory}}/done.json"
     );
@@ -36,7 +37,7 @@ pub(super) fn write(order: &Handover<'_>) -> Result<Submission, Failure> {
          [action.resources]\nthreads_per_process = {cores}\nwalltime.per_directory = \"{}\"\n",
         order.next.missing.len(),
         format::core_hours(order.seconds),
-        toml::Value::String(format!("({command})")),
+        toml::Value::String(format!("({line})")),
         clock(arguments.time)
     );
     let workflow = order.write("workflow.toml", &text)?;

@@ -16,6 +16,7 @@ pub(super) fn write(order: &Handover<'_>) -> Result<Submission, Failure> {
     let shards = shards_with_missing(order, of);
     let Handover {
         program,
+        command,
         file,
         out,
         here,
@@ -51,7 +52,7 @@ pub(super) fn write(order: &Handover<'_>) -> Result<Submission, Failure> {
              exit\n\
          }}\n\
          trap again TERM\n\
-         {program} sweep {file} --out {out} --shard $SLURM_ARRAY_TASK_ID/{of} --jobs {cores} &\n\
+         {program} {command} {file} --out {out} --shard $SLURM_ARRAY_TASK_ID/{of} --jobs {cores} &\n\
          work=$!\n\
          wait $work\n"
     );

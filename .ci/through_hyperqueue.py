@@ -1,6 +1,6 @@
 """Runs a sweep through HyperQueue's own engine, as `phase submit --to hyperqueue` describes it.
 
-Usage: hyperqueue.py PHASE SWEEP.toml FOLDER [--kill]
+Usage: through_hyperqueue.py PHASE SWEEP.toml FOLDER [--kill]
 
 PyPI's wheel of HyperQueue holds server, worker and client without the program `hq`. So the tasks of
 the job file are submitted one by one through Python, and what `next.sh` does is done here. With
