@@ -7,8 +7,8 @@ use serde_json::{Map, Value};
 /// A change of a scene: keys with their new values, and tables that are left out.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Change {
-    /// Paths of keys or tables, such as `time.dt`, with their new values, in order. A table replaces
-    /// the whole table of the scene.
+    /// Paths of keys or tables, such as `time.dt`, with their new values, in order. A table
+    /// replaces the whole table of the scene.
     pub set: Vec<(String, Value)>,
     /// Paths of tables or keys that are left out, such as `friction`.
     pub remove: Vec<String>,

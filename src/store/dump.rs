@@ -4,10 +4,10 @@
 //! The names are as in the thesis's control script (Rice, 2012, section 7.2):
 //! `dump_r00.003_p03750.0_f006.0.npy`. The script pads the radius to six characters, the analysis
 //! of section 7.3 cuts out five; names are read here by their letters, so either will do. For a
-//! seed other than 1, `_s2` and so on follows (the thesis has no seeds). Where several runs have the
-//! same numbers, the seed and then the name of each follow, such as `_s1_heavy`. In the dump of an
-//! unstable run all coordinates are 1 from the end of the run on; by this the analysis recognises
-//! it.
+//! seed other than 1, `_s2` and so on follows (the thesis has no seeds). Where several runs have
+//! the same numbers, the seed and then the name of each follow, such as `_s1_heavy`. In the dump
+//! of an unstable run all coordinates are 1 from the end of the run on; by this the analysis
+//! recognises it.
 
 use super::StoreError;
 use super::export::write_array;

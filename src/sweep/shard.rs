@@ -9,8 +9,8 @@ use std::str::FromStr;
 
 /// Which jobs of a sweep, or of a round of a refined one, a process runs.
 ///
-/// As text `3/64` is the third of 64 parts of equal work; `3f9a01c2d45e:0-31,40` lists jobs by their
-/// places, behind a digest of all of them.
+/// As text `3/64` is the third of 64 parts of equal work; `3f9a01c2d45e:0-31,40` lists jobs by
+/// their places, behind a digest of all of them.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Shard {
     /// One of several parts of equal work.

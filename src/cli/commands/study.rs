@@ -61,8 +61,8 @@ pub(crate) struct Arguments {
     /// Make every run again, whatever the results folder holds.
     #[arg(short, long)]
     force: bool,
-    /// Make one of N parts of equal work, in any number of processes on any machines: I/N, or `auto`
-    /// for the task of a Slurm array. The last one says what follows.
+    /// Make one of N parts of equal work, in any number of processes on any machines: I/N, or
+    /// `auto` for the task of a Slurm array. The last one says what follows.
     #[arg(long, value_name = "I/N", value_parser = values::part)]
     #[arg(conflicts_with_all = ["job", "force"])]
     shard: Option<Shard>,

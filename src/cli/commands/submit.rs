@@ -244,7 +244,8 @@ impl<'a> Handover<'a> {
     }
 
     /// Writes what is missing, one job a line, and a script that submits what is missing then: the
-    /// next round of a refined sweep, or runs of tasks that were killed. Without a new run it stops.
+    /// next round of a refined sweep, or runs of tasks that were killed. Without a new run it
+    /// stops.
     fn write_next(&self, head: &str, system: &str) -> Result<[PathBuf; 2], Failure> {
         let Self {
             program,

@@ -102,7 +102,8 @@ impl RunTable {
         let header = file.headers().map_err(fail)?;
         if header.iter().ne(columns(axes, &quantities)) {
             let reason = "its columns are not those of this study: other axes, other quantities, \
-                          or a table of something else; move it away, or write it anew with --force";
+                          or a table of something else; move it away, or write it anew with \
+                          --force";
             return Err(StoreError::text(path, 1, reason));
         }
         let measured = comparison.measurement.digest();

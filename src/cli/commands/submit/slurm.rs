@@ -43,16 +43,18 @@ pub(super) fn write(order: &Handover<'_>) -> Result<Submission, Failure> {
          # them. `phase submit` writes this file again.\n\
          cd {here} || exit\n\
          \n\
-         # Slurm sends TERM before the time is up, and when it needs the node: runs under way leave\n\
-         # a checkpoint, and the task goes back into the queue.\n\
+         # Slurm sends TERM before the time is up, and when it needs the node: runs leave a\n\
+         # checkpoint, and the task goes back into the queue.\n\
          again() {{\n    \
              kill -TERM $work\n    \
              wait $work\n    \
-             [ $? -eq 130 ] && scontrol requeue \"${{SLURM_ARRAY_JOB_ID}}_$SLURM_ARRAY_TASK_ID\"\n    \
+             [ $? -eq 130 ] &&\n        \
+                 scontrol requeue \"${{SLURM_ARRAY_JOB_ID}}_$SLURM_ARRAY_TASK_ID\"\n    \
              exit\n\
          }}\n\
          trap again TERM\n\
-         {program} {command} {file} --out {out} --shard $SLURM_ARRAY_TASK_ID/{of} --jobs {cores} &\n\
+         {program} {command} {file} --out {out} --jobs {cores} \\\n    \
+             --shard $SLURM_ARRAY_TASK_ID/{of} &\n\
          work=$!\n\
          wait $work\n"
     );
