@@ -129,13 +129,8 @@ fn rounds_follow_each_other() {
 fn a_study_goes_through_an_array() {
     let place = Workplace::new();
     with_slurm(&place, 1001);
-    let text = "study = \"accuracy\"\nseeds.count = 3\n[scene]\n\
-                spheres = { count = 1, radius = 0.004, density = 1000.0 }\n\
-                start = { kind = \"list\", spheres = [{ position = [0, 0, 1] }] }\n\
-                gravity = { acceleration = 9.8 }\n\
-                time = { dt = 1e-3, duration = 0.1, frame_interval = 1e-2 }\n\
-                [[ladder]]\nkey = \"time.dt\"\nvalues = [5e-4, 2.5e-4]\n";
-    place.write("fall.toml", text);
+    let [(text, _), _] = crate::studies::studies();
+    place.write("fall.toml", &text);
     submit(&place, &["fall.toml", "--to", "slurm", "--tasks", "2"]).code(0);
     let folder = place.path("results/accuracy/fall");
     let output = place.read("output");

@@ -51,7 +51,7 @@ set = { neighbours = { search = "all-pairs" } }
 "#;
 
 /// A study, and one whose settings share no runs.
-fn studies() -> [(String, u64); 2] {
+pub(crate) fn studies() -> [(String, u64); 2] {
     let shared = format!("{STUDY}{SCENE}");
     let timed = format!("step_time = [\"dt\"]\n{STUDY}{SCENE}");
     [(shared, 9), (timed, 12)]

@@ -12,8 +12,8 @@ use std::time::Duration;
 
 /// List the jobs of a sweep or study, a line each, for programs that hand them out.
 ///
-/// `phase sweep FILE --job LINE`, or `phase study`, runs what a line lists. Of a refined sweep these
-/// are the jobs of the next round.
+/// `phase sweep FILE --job LINE`, or `phase study`, runs what a line lists. Of a refined sweep
+/// these are the jobs of the next round.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Examples: in chunks of 20 minutes through HyperQueue, or one by one through GNU parallel
