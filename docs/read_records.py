@@ -53,7 +53,8 @@ def main(folder):
         print("mean of the last second:")
         for name, value in frames.loc[frames.index[-1] - 1.0 :].mean().items():
             data = record["observations"][name]
-            print(f"  {name:15} {value:12.4e} {data.attrs['unit']:6} {data.attrs['description']}")
+            unit, description = (data.attrs[it].decode() for it in ["unit", "description"])
+            print(f"  {name:15} {value:12.4e} {unit:6} {description}")
 
         # Not a number where a sphere is not in.
         position = record["snapshots/position"][-1]

@@ -35,8 +35,8 @@ def main(record_path, expected_path):
             assert dataset.dtype.str == value["dtype"], (name, dataset.dtype.str)
             assert list(dataset.shape) == value["shape"], (name, dataset.shape)
             assert dataset[()].tobytes().hex() == value["bytes"], f"{name}: other values"
-            assert isinstance(dataset.attrs["unit"], str), name
-            assert len(dataset.attrs["description"]) > 5, name
+            assert isinstance(dataset.attrs["unit"].decode(), str), name
+            assert len(dataset.attrs["description"].decode()) > 5, name
 
 
 def check_toml(text, scene):

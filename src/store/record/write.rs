@@ -64,6 +64,12 @@ fn text(value: &str) -> AttrValue {
     AttrValue::VarLenString(value.to_owned())
 }
 
+/// A text of a fixed length. One of a variable length takes 4 kB of the file, which for two texts
+/// of each dataset is more than the record of a short run holds.
+fn short_text(value: &str) -> AttrValue {
+    AttrValue::String(value.to_owned())
+}
+
 /// The scene without the spheres that its start lists, and these, if they are too many for a text.
 fn long_start(scene: &Scene) -> Option<(Scene, &[StartSphere])> {
     let apart = scene.apart_from_list();
@@ -156,8 +162,8 @@ fn dataset<T: H5Element>(
     dataset
         .with_data(values)
         .with_shape(&shape)
-        .set_attr("unit", text(unit))
-        .set_attr("description", text(description));
+        .set_attr("unit", short_text(unit))
+        .set_attr("description", short_text(description));
     let size = size_of_val(values);
     if size >= COMPRESS_FROM {
         dataset
