@@ -5,7 +5,7 @@ use super::folders;
 use phase::cost::{self, Forecast};
 use phase::study::comparison::RunTable;
 use phase::study::{AnyFile, AnyStudy};
-use phase::sweep::{Folder, Job, NextJobs, Plan};
+use phase::sweep::{Folder, Job, NextJobs, Plan, Sweep};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -15,6 +15,7 @@ const TRIAL: Duration = Duration::from_secs(4);
 /// The jobs of a file, and what runs them.
 pub(super) struct Handed {
     pub(super) next: NextJobs,
+    pub(super) sweep: Sweep,
     pub(super) folder: Folder,
     /// The command that runs the file.
     pub(super) command: &'static str,
@@ -33,6 +34,7 @@ impl Handed {
                 let folder = Folder::new(root.unwrap_or_else(|| folders::default_folder(file)));
                 Ok(Self {
                     next: NextJobs::new(&folder, &sweep, workers)?,
+                    sweep: *sweep,
                     folder,
                     command: "sweep",
                 })
@@ -60,6 +62,7 @@ impl Handed {
         let plan = Plan::new(&folder, comparison.jobs.clone(), workers)?;
         Ok(Self {
             next: NextJobs::of_plan(table.applied_to(plan)),
+            sweep: comparison.sweep.clone(),
             folder,
             command: "study",
         })

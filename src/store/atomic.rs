@@ -88,6 +88,13 @@ fn folder_of(path: &Path) -> &Path {
     }
 }
 
+/// The name of an unfinished file of this process beside a file.
+pub(super) fn unfinished_beside(path: &Path, serial: u64) -> PathBuf {
+    let process = std::process::id();
+    let name = format!("{PREFIX}{}-{process}-lease-{serial}{SUFFIX}", machine());
+    folder_of(path).join(name)
+}
+
 /// An unfinished file in a folder.
 fn temporary_in(folder: &Path) -> io::Result<NamedTempFile> {
     let prefix = format!("{PREFIX}{}-{}-", machine(), std::process::id());

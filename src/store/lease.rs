@@ -11,6 +11,7 @@
 //! do, and gives it the name `NAME`. Should that process die in between, `NAME.1` is broken with
 //! `NAME.2`, and so on.
 
+use super::atomic::unfinished_beside;
 use super::process::ProcessIdentity;
 use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
@@ -337,22 +338,19 @@ impl Leases {
         loop {
             let seen = look(path).ok().flatten();
             let tenure = self.tenure(path).unwrap_or(Tenure::Held(None));
-            let Tenure::Held(Some(holder)) = &tenure else {
-                // What cannot be read is a moment old, or not of this program.
-                if matches!(tenure, Tenure::Held(None)) && first.is_none() {
-                    thread::sleep(BETWEEN_LOOKS);
-                    first = seen;
-                    continue;
-                }
+            let Tenure::Held(holder) = &tenure else {
                 return tenure;
             };
-            let is_known = holder.process.is_alive_for(&self.process).is_some();
+            let process = holder.as_ref().map(|it| &it.process);
+            let is_known = process.is_some_and(|it| it.is_alive_for(&self.process).is_some());
             let has_moved = first.is_some() && seen.is_some() && seen != first;
             if is_known || has_moved {
                 return tenure;
             }
             if first.is_none() {
-                wait(holder);
+                if let Some(holder) = holder {
+                    wait(holder);
+                }
                 first = seen;
             }
             thread::sleep(BETWEEN_LOOKS.min(self.beat));
@@ -388,14 +386,31 @@ fn with(path: &Path, end: &str) -> PathBuf {
     name.into()
 }
 
-/// Makes a file that is not there. None if it is.
+/// Makes a file that is not there. None if it is. It appears whole: an unfinished one, whose process
+/// was killed, would name nobody.
 fn make(path: &Path, holder: &Holder) -> io::Result<Option<File>> {
+    let text = serde_json::to_string(holder).map_err(io::Error::other)?;
+    let unfinished = unfinished_beside(path, holder.serial);
+    let made = write_new(&unfinished, &text)?;
+    let linked = fs::hard_link(&unfinished, path);
+    // One that stays is removed by who writes here next.
+    let _ = fs::remove_file(&unfinished);
+    match (made, linked) {
+        (Some(file), Ok(())) => Ok(Some(file)),
+        (_, Err(error)) if error.kind() == ErrorKind::AlreadyExists => Ok(None),
+        (_, Err(error)) if error.kind() == ErrorKind::NotFound => Err(error),
+        // Not every file system has links.
+        _ => write_new(path, &text),
+    }
+}
+
+/// Writes a file that is not there. None if it is.
+fn write_new(path: &Path, text: &str) -> io::Result<Option<File>> {
     let mut file = match OpenOptions::new().write(true).create_new(true).open(path) {
         Ok(file) => file,
         Err(error) if error.kind() == ErrorKind::AlreadyExists => return Ok(None),
         Err(error) => return Err(error),
     };
-    let text = serde_json::to_string(holder).map_err(io::Error::other)?;
     match file.write_all(text.as_bytes()) {
         Ok(()) => Ok(Some(file)),
         Err(error) => {

@@ -44,7 +44,7 @@ impl Folder {
     /// # Errors
     /// [`FolderError::Locked`] if another process writes to it.
     pub fn lock(&self, wait: &dyn Fn(&Holder)) -> Result<Access, FolderError> {
-        let door = self.pass_the_door()?;
+        let door = self.pass_the_door(wait)?;
         match self.other_for_sure(wait)? {
             Some(other) => Err(self.locked_by(Some(other))),
             None => self.come_in(Some(door)),
@@ -59,7 +59,7 @@ impl Folder {
     /// [`FolderError::Locked`] if another process changes the folder, or runs another sweep into
     /// it.
     pub fn enter(&self, sweep: &Sweep, wait: &dyn Fn(&Holder)) -> Result<Access, FolderError> {
-        let door = self.pass_the_door()?;
+        let door = self.pass_the_door(wait)?;
         if self.at_work()?.is_empty() {
             return self.come_in(Some(door));
         }
@@ -116,6 +116,16 @@ impl Folder {
                 let _ = fs::remove_file(entry.path());
             }
         }
+        for entry in fs::read_dir(self.root()).into_iter().flatten().flatten() {
+            let name = entry.file_name();
+            let Some(name) = name.to_str().and_then(Lease::name_of) else {
+                continue;
+            };
+            // The door and this process's own lease are held.
+            if !matches!(self.look_at(name), Tenure::Held(Some(_))) {
+                let _ = fs::remove_file(entry.path());
+            }
+        }
         Ok(())
     }
 
@@ -138,8 +148,14 @@ impl Folder {
     ///
     /// # Errors
     /// If the file of the lease cannot be made.
-    pub fn lease_of_labels(&self) -> Result<Option<Lease>, FolderError> {
-        Lease::take(&self.root().join(".labels")).map_err(|it| self.io_error(it))
+    pub fn lease_of_labels(&self, wait: &dyn Fn(&Holder)) -> Result<Option<Lease>, FolderError> {
+        let name = self.root().join(".labels");
+        loop {
+            let taken = Lease::take(&name).map_err(|it| self.io_error(it))?;
+            if taken.is_some() || matches!(Lease::watch(&name, wait), Tenure::Held(_)) {
+                return Ok(taken);
+            }
+        }
     }
 
     /// The sweep file that was last run into the folder on this machine, if it is known and there.
@@ -166,18 +182,17 @@ impl Folder {
     }
 
     /// Takes the lease that each process needs to come in.
-    fn pass_the_door(&self) -> Result<Lease, FolderError> {
+    fn pass_the_door(&self, wait: &dyn Fn(&Holder)) -> Result<Lease, FolderError> {
         let name = self.root().join(".door");
         let begun = Instant::now();
         loop {
             if let Some(door) = Lease::take(&name).map_err(|it| self.io_error(it))? {
                 return Ok(door);
             }
-            if begun.elapsed() > AT_THE_DOOR {
-                return Err(self.locked_by(match Lease::tenure(&name) {
-                    Tenure::Held(holder) | Tenure::Stale(holder) => holder,
-                    Tenure::Free => None,
-                }));
+            if begun.elapsed() > AT_THE_DOOR
+                && let Tenure::Held(holder) = Lease::watch(&name, wait)
+            {
+                return Err(self.locked_by(holder));
             }
             thread::sleep(BETWEEN_TRIES);
         }
@@ -201,7 +216,12 @@ impl Folder {
 
     /// Another process that is known to live. Watches those that are not.
     fn other_for_sure(&self, wait: &dyn Fn(&Holder)) -> Result<Option<Holder>, FolderError> {
-        for name in self.presences()? {
+        let names = self.presences()?;
+        // All are watched from now on, not one after the other.
+        for name in &names {
+            Lease::tenure(&self.root().join(name));
+        }
+        for name in names {
             if let Tenure::Held(Some(holder)) = Lease::watch(&self.root().join(&name), wait) {
                 return Ok(Some(holder));
             }

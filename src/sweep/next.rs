@@ -1,5 +1,6 @@
 //! What is to be run next of a sweep, for programs that hand jobs out.
 
+use super::shard::deal;
 use super::{Folder, Job, Plan, Refinement, RefinementError, RoundsError, Shard, Step, Sweep};
 use std::collections::HashSet;
 use std::time::Duration;
@@ -70,6 +71,20 @@ impl NextJobs {
         }
         shards.extend((!own.is_empty()).then_some(own));
         Shard::of_places(&self.jobs, &shards)
+    }
+}
+
+impl NextJobs {
+    /// The jobs at these places in so many shards of equal work, of which none is empty.
+    pub fn parts(&self, places: &[usize], of: usize) -> Vec<Shard> {
+        let work = places.iter().map(|&place| self.jobs[place].work());
+        let dealt = deal(&work.collect::<Vec<_>>(), of);
+        let mut parts = vec![Vec::new(); of.min(places.len())];
+        for (&place, part) in places.iter().zip(dealt) {
+            parts[part].push(place);
+        }
+        parts.retain(|part| !part.is_empty());
+        Shard::of_places(&self.jobs, &parts)
     }
 }
 

@@ -79,7 +79,7 @@ impl Shard {
 }
 
 /// The part that each job belongs to, from 0.
-fn deal(work: &[u64], parts: usize) -> Vec<usize> {
+pub(super) fn deal(work: &[u64], parts: usize) -> Vec<usize> {
     let mut order: Vec<usize> = (0..work.len()).collect();
     order.sort_by_key(|&place| Reverse(work[place]));
     let mut loads: BinaryHeap<Reverse<(u64, usize)>> = (0..parts.min(work.len()))

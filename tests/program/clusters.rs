@@ -142,6 +142,42 @@ fn a_study_goes_through_an_array() {
         .says("no run is missing");
 }
 
+/// Symptom: real sbatch refused scripts of paths with spaces or quotes, and commands replaced "{}" in
+/// paths. Cause: paths stood in directives as they are.
+#[cfg(unix)]
+#[test]
+fn odd_paths_are_submitted() {
+    let place = Workplace::new();
+    with_slurm(&place, 1001);
+    fs::create_dir(place.path("it's {} 50%")).unwrap();
+    let file = "it's {} 50%/my sweep.toml";
+    place.write(file, &TinySweep::default().text());
+    let out = "it's {} 50%/out";
+    let more = ["--tasks", "2", "--", "--dependency=afterok:5"];
+    let arguments = [&[file, "--to", "slurm", "--out", out][..], &more].concat();
+    submit(&place, &arguments).code(0);
+    let script = place.read(&format!("{out}/cluster/submit.sh"));
+    let directives: Vec<&str> = script
+        .lines()
+        .filter(|it| it.starts_with("#SBATCH"))
+        .collect();
+    assert!(
+        directives.contains(&"#SBATCH --job-name=phase-my-sweep"),
+        "{script}"
+    );
+    assert!(!directives.iter().any(|it| it.contains("it's")), "{script}");
+    let submitted = place.read("submitted");
+    let next = submitted.lines().last().unwrap();
+    // The script waits for its array, whatever else the user waits for.
+    let [theirs, own] = ["afterok:5", "afterany:17"].map(|it| next.find(it).unwrap());
+    assert!(theirs < own, "{next}");
+    assert!(next.contains("{} 50%%/out/cluster/%j.log"), "{next}");
+    assert_eq!(place.records(out).len(), 6);
+    place
+        .phase(&["submit", file, "--to", "row", "--out", "other", "--dry-run"])
+        .code(0);
+}
+
 /// Only shards that lack runs are submitted again, and a sweep whose tasks make no run is not
 /// submitted for ever.
 #[cfg(unix)]
@@ -256,6 +292,29 @@ fn folders_made_apart_are_joined() {
         .says("6 runs labelled");
     assert!(place.path("one/phase.png").exists());
     same_as_alone(&place, "one", &TABLES);
+}
+
+/// Symptom: runs of a study were labelled like those of a sweep, and their records called wrong.
+#[test]
+fn folders_of_a_study_are_joined() {
+    let place = Workplace::new();
+    let [_, (text, runs)] = crate::studies::studies();
+    place.write("study.toml", &text);
+    for (folder, shard) in [("one", "1/2"), ("two", "2/2")] {
+        place
+            .phase(&["study", "study.toml", "--out", folder, "--shard", shard])
+            .code(0);
+    }
+    place
+        .phase(&["merge", "one", "two"])
+        .code(0)
+        .says("records taken, 0 in both")
+        .says("`phase study` with the same file writes tables and figures");
+    assert!(!place.path("one/labels.csv").exists());
+    place
+        .phase(&["study", "study.toml", "--out", "one", "--no-plot"])
+        .code(0)
+        .says(&format!("{runs} runs: 0 made now"));
 }
 
 #[test]

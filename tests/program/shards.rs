@@ -149,6 +149,11 @@ fn jobs_are_handed_out_as_lines() {
     run(&all[0])
         .code(2)
         .complains("lists jobs of another version of the sweep");
+    // Nothing was changed.
+    place
+        .phase(&["status", "shared"])
+        .code(0)
+        .says("6 jobs, 6 done");
 }
 
 #[test]

@@ -41,6 +41,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     }
     let wait = |holder: &_| folders::tell_of_waiting(&into, holder, console);
     let _access = into.lock(&wait)?;
+    into.create()?;
     let jobs = jobs_of(&sweep, &into, &from)?;
     let mut answer = Answer::default();
     for folder in &from {
@@ -55,6 +56,12 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         answer.taken += taken.new;
         answer.problems.extend(taken.left);
     }
+    if sweep.study.is_some() {
+        console.result("`phase study` with the same file writes tables and figures");
+        return Ok(answer.end(console));
+    }
+    // Which jobs a refined sweep has, it chooses itself when it is run again.
+    let jobs = sweep.jobs_so_far(into.read_refining(&sweep)?.as_ref())?;
     let plan = Plan::new(&into, jobs, workers)?;
     answer.left = plan.pending().count();
     let jobs: Vec<Job> = plan.jobs.into_iter().map(|(job, _)| job).collect();
@@ -65,11 +72,21 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         answer.problems.extend(problems);
     }
     answer.labels = Some(labels::Summary::new(&into, &labelled));
-    console.answer_with_files(&answer);
-    Ok(match answer.problems.is_empty() {
-        true => Exit::Done,
-        false => Exit::Failed,
-    })
+    if sweep.refine.is_some() {
+        console.note("`phase sweep` with the same file continues with these runs");
+    }
+    Ok(answer.end(console))
+}
+
+impl Answer {
+    /// Prints the answer, and says how the command ends.
+    fn end(&self, console: &Console) -> Exit {
+        console.answer_with_files(self);
+        match self.problems.is_empty() {
+            true => Exit::Done,
+            false => Exit::Failed,
+        }
+    }
 }
 
 /// What `--json` prints.

@@ -9,7 +9,7 @@ use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::{format, values};
 use phase::store;
-use phase::sweep::{NextJobs, Shard};
+use phase::sweep::{Folder, NextJobs, Shard, Sweep};
 use serde::Serialize;
 use std::ffi::OsStr;
 use std::fs;
@@ -66,7 +66,9 @@ enum BatchSystem {
 struct Handover<'a> {
     arguments: &'a Arguments,
     next: NextJobs,
-    /// Name of the sweep.
+    sweep: Sweep,
+    folder: Folder,
+    /// Name of the sweep, of plain letters.
     name: String,
     /// Processor time of what is missing, and of all jobs (s).
     seconds: f64,
@@ -131,6 +133,10 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         commands: submission.commands.clone(),
     };
     if !arguments.dry_run {
+        if !order.folder.sweep().exists() {
+            // So that `phase status` knows it before the first task begins.
+            order.folder.write_sweep(&order.sweep)?;
+        }
         answer.submitted = submit(&submission.commands, console)?;
     }
     console.answer_with_files(&answer);
@@ -155,7 +161,11 @@ fn submit(commands: &[Vec<String>], console: &Console) -> Result<Vec<String>, Fa
     let mut names: Vec<String> = Vec::new();
     for command in commands {
         let first = names.first().cloned().unwrap_or_default();
-        let words: Vec<String> = command.iter().map(|it| it.replace("{}", &first)).collect();
+        let fill = |word: &String| match word.starts_with("--dependency=") {
+            true => word.replace("{}", &first),
+            false => word.clone(),
+        };
+        let words: Vec<String> = command.iter().map(fill).collect();
         let line = words.join(" ");
         let Some((program, words)) = words.split_first() else {
             continue;
@@ -182,6 +192,7 @@ impl<'a> Handover<'a> {
     fn new(arguments: &'a Arguments, handed: Handed) -> Result<Self, Failure> {
         let Handed {
             next,
+            sweep,
             folder,
             command,
         } = handed;
@@ -197,7 +208,7 @@ impl<'a> Handover<'a> {
         let program = std::env::current_exe().map_err(Failure::failed)?;
         let name = arguments.file.file_stem().unwrap_or("sweep".as_ref());
         Ok(Self {
-            name: name.to_string_lossy().into_owned(),
+            name: plain(&name.to_string_lossy()),
             seconds: missing,
             all_seconds: all,
             rate: forecast.rate,
@@ -207,6 +218,8 @@ impl<'a> Handover<'a> {
             out: word(root.as_os_str())?,
             here: word(here.as_os_str())?,
             place: root.join("cluster"),
+            sweep,
+            folder,
             arguments,
             next,
         })
@@ -220,14 +233,16 @@ impl<'a> Handover<'a> {
         tasks.clamp(1, most.min(self.next.jobs.len()).max(1))
     }
 
-    /// Lines of jobs that are missing, as many as there are tasks.
+    /// Lines of jobs that are missing, one for each task.
     fn lines(&self) -> Vec<String> {
-        let time = match self.arguments.tasks {
-            Some(tasks) => self.seconds / tasks as f64 * 1.001,
-            None => self.arguments.time.as_secs_f64() / 2.0 * self.arguments.jobs as f64,
+        let missing = &self.next.missing;
+        let shards = match self.arguments.tasks {
+            Some(tasks) => self.next.parts(missing, tasks),
+            None => {
+                let time = self.arguments.time / 2 * self.arguments.jobs as u32;
+                self.next.shards(missing, self.rate, time)
+            }
         };
-        let time = Duration::try_from_secs_f64(time).unwrap_or(Duration::MAX);
-        let shards = self.next.shards(&self.next.missing, self.rate, time);
         shards.iter().map(Shard::to_string).collect()
     }
 
@@ -283,6 +298,15 @@ impl<'a> Handover<'a> {
         );
         Ok([self.write("todo", &lines)?, self.write("next.sh", &text)?])
     }
+}
+
+/// A name with nothing but letters, digits and a few signs.
+fn plain(name: &str) -> String {
+    let sign = |it: char| match it.is_ascii_alphanumeric() || "._-".contains(it) {
+        true => it,
+        false => '-',
+    };
+    name.chars().map(sign).collect()
 }
 
 /// A word of a shell.

@@ -86,6 +86,10 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     if !arguments.no_classify {
         sweep.check_sieves(&jobs).map_err(labels::cannot_label)?;
     }
+    if let (Some(job), None) = (&arguments.job, &sweep.refine) {
+        // Before anything is changed.
+        job.of(&jobs)?;
+    }
     let folder = folder_of(&sweep, arguments)?;
     let stop = interrupt::stop_on_signal(console)?;
 
@@ -256,7 +260,8 @@ fn enter(
 
 /// Takes the right to label the runs of a folder. None if another process labels them.
 fn lease_of_labels(folder: &Folder, console: &Console) -> Result<Option<Lease>, Failure> {
-    let lease = folder.lease_of_labels()?;
+    let wait = |holder: &Holder| folders::tell_of_waiting(folder, holder, console);
+    let lease = folder.lease_of_labels(&wait)?;
     if lease.is_none() {
         console.note("another process labels the runs and draws the figures");
     }

@@ -212,6 +212,42 @@ fn of_many_that_want_it_at_once_one_has_it() {
     }
 }
 
+/// Symptom: a process that was killed between making a lease and writing it left an empty file,
+/// which nobody broke for two minutes of each process's own time. A lease appears whole.
+#[test]
+fn a_lease_appears_whole() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("run.lease");
+    let is_over = AtomicBool::new(false);
+    thread::scope(|scope| {
+        scope.spawn(|| {
+            while !is_over.load(Ordering::Relaxed) {
+                if let Ok(text) = fs::read(&path) {
+                    let holder: Result<Holder, _> = serde_json::from_slice(&text);
+                    assert!(holder.is_ok(), "{text:?}");
+                }
+            }
+        });
+        let leases = on("first", SystemTime::now);
+        for _ in 0..2000 {
+            drop(leases.take(&path).unwrap().unwrap());
+        }
+        is_over.store(true, Ordering::Relaxed);
+    });
+    assert!(files(folder.path()).is_empty());
+}
+
+/// Even of a file that says nothing it is told after a while that nobody holds it.
+#[test]
+fn what_cannot_be_read_is_watched_too() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("run.lease");
+    fs::write(&path, "").unwrap();
+    let leases = on("first", SystemTime::now);
+    assert_eq!(leases.watch(&path, &|_| {}), Tenure::Stale(None));
+    assert!(leases.take(&path).unwrap().is_some());
+}
+
 #[test]
 fn names_of_leases_are_known_from_their_files() {
     for (file, name) in [

@@ -4,6 +4,7 @@ use super::{Handover, Submission, cannot_write, clock};
 use crate::cli::exit::Failure;
 use crate::cli::format;
 use std::fs;
+use std::path::Path;
 
 pub(super) fn write(order: &Handover<'_>) -> Result<Submission, Failure> {
     let Handover {
@@ -16,6 +17,7 @@ pub(super) fn write(order: &Handover<'_>) -> Result<Submission, Failure> {
         ..
     } = order;
     let lines = order.lines();
+    remove_open(&order.place.join("shards"));
     for line in &lines {
         // The same jobs have the same directory.
         let name = blake3::hash(line.as_bytes()).to_hex();
@@ -41,7 +43,7 @@ pub(super) fn write(order: &Handover<'_>) -> Result<Submission, Failure> {
         clock(arguments.time)
     );
     let workflow = order.write("workflow.toml", &text)?;
-    let place = order.path("")?;
+    let place = order.place.display().to_string();
     let words = ["env", "-C", &place, "row", "submit", "--yes"].map(str::to_owned);
     let words = words.into_iter();
     Ok(Submission {
@@ -49,4 +51,14 @@ pub(super) fn write(order: &Handover<'_>) -> Result<Submission, Failure> {
         commands: vec![words.chain(arguments.more.iter().cloned()).collect()],
         files: vec![workflow],
     })
+}
+
+/// Removes the directories that are not done: their lines are of an earlier round, or listed anew.
+fn remove_open(shards: &Path) {
+    for entry in fs::read_dir(shards).into_iter().flatten().flatten() {
+        if !entry.path().join("done.json").exists() {
+            // One that stays does no harm: its runs are made once.
+            let _ = fs::remove_dir_all(entry.path());
+        }
+    }
 }

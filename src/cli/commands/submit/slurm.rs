@@ -5,6 +5,7 @@ use crate::cli::exit::Failure;
 use crate::cli::format;
 use phase::sweep::Shard;
 use std::collections::BTreeSet;
+use std::path::Path;
 use std::process::Command;
 
 /// Largest array where Slurm does not say it, its default.
@@ -25,8 +26,8 @@ pub(super) fn write(order: &Handover<'_>) -> Result<Submission, Failure> {
         ..
     } = order;
     let (cores, time) = (arguments.jobs, clock(arguments.time));
-    let log = order.place.join("%A.log");
-    let (array, log) = (ranges(&shards), log.display());
+    let (in_script, log) = output(order, "%A.log")?;
+    let array = ranges(&shards);
     let (runs, hours) = (order.next.missing.len(), format::core_hours(order.seconds));
     let text = format!(
         "#!/bin/bash\n\
@@ -37,7 +38,7 @@ pub(super) fn write(order: &Handover<'_>) -> Result<Submission, Failure> {
          #SBATCH --signal=B:TERM@120\n\
          #SBATCH --requeue\n\
          #SBATCH --open-mode=append\n\
-         #SBATCH --output={log}\n\
+         {in_script}\
          \n\
          # {runs} runs that are missing, about {hours}. Each task makes a shard of\n\
          # them. `phase submit` writes this file again.\n\
@@ -48,8 +49,9 @@ pub(super) fn write(order: &Handover<'_>) -> Result<Submission, Failure> {
          again() {{\n    \
              kill -TERM $work\n    \
              wait $work\n    \
-             [ $? -eq 130 ] &&\n        \
-                 scontrol requeue \"${{SLURM_ARRAY_JOB_ID}}_$SLURM_ARRAY_TASK_ID\"\n    \
+             case $? in\n    \
+             130 | 143) scontrol requeue \"${{SLURM_ARRAY_JOB_ID}}_$SLURM_ARRAY_TASK_ID\" ;;\n    \
+             esac\n    \
              exit\n\
          }}\n\
          trap again TERM\n\
@@ -59,27 +61,39 @@ pub(super) fn write(order: &Handover<'_>) -> Result<Submission, Failure> {
          wait $work\n"
     );
     let script = order.write("submit.sh", &text)?;
-    let log = order.place.join("%j.log");
+    let (in_script, next_log) = output(order, "%j.log")?;
     let head = format!(
         "#SBATCH --job-name=phase-{name}-next\n#SBATCH --time=01:00:00\n\
-         #SBATCH --cpus-per-task={cores}\n#SBATCH --output={}\n",
-        log.display()
+         #SBATCH --cpus-per-task={cores}\n{in_script}"
     );
     let [todo, next] = order.write_next(&head, "slurm")?;
-    let sbatch = |options: &[&str], script: &std::path::Path| -> Vec<String> {
-        let words = ["sbatch", "--parsable"].iter().chain(options);
-        let words = words.map(|it| (*it).to_owned());
+    // The last option of a name counts.
+    let sbatch = |options: &[String], script: &Path| -> Vec<String> {
+        let words = ["sbatch", "--parsable"].map(str::to_owned).into_iter();
         let words = words.chain(arguments.more.iter().cloned());
+        let words = words.chain(options.iter().cloned());
         words.chain([script.display().to_string()]).collect()
     };
+    let after = "--dependency=afterany:{}".to_owned();
     Ok(Submission {
         tasks: shards.len(),
         commands: vec![
-            sbatch(&[], &script),
-            sbatch(&["--dependency=afterany:{}"], &next),
+            sbatch(log.as_slice(), &script),
+            sbatch(&[&[after], next_log.as_slice()].concat(), &next),
         ],
         files: vec![script, next, todo],
     })
+}
+
+/// The file for what tasks print: a line of the script, or an option where the path holds what
+/// would end such a line.
+fn output(order: &Handover<'_>, name: &str) -> Result<(String, Option<String>), Failure> {
+    let place = order.place.display().to_string();
+    if order.path("")? == format!("{place}/") && !place.contains('%') {
+        return Ok((format!("#SBATCH --output={place}/{name}\n"), None));
+    }
+    let place = place.replace('%', "%%");
+    Ok((String::new(), Some(format!("--output={place}/{name}"))))
 }
 
 /// Numbers of the shards that lack runs.
