@@ -93,7 +93,7 @@ fn a_sweep_goes_through_an_array() {
         "{submitted}"
     );
     assert!(
-        lines[1].starts_with("--parsable --dependency=afterany:17 --partition p "),
+        lines[1].starts_with("--parsable --partition p --dependency=afterany:17 "),
         "{submitted}"
     );
     same_as_alone(&place, "results/tiny", &TABLES);
