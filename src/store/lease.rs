@@ -386,8 +386,8 @@ fn with(path: &Path, end: &str) -> PathBuf {
     name.into()
 }
 
-/// Makes a file that is not there. None if it is. It appears whole: an unfinished one, whose process
-/// was killed, would name nobody.
+/// Makes a file that is not there. None if it is. It appears whole: an unfinished one, whose
+/// process was killed, would name nobody.
 fn make(path: &Path, holder: &Holder) -> io::Result<Option<File>> {
     let text = serde_json::to_string(holder).map_err(io::Error::other)?;
     let unfinished = unfinished_beside(path, holder.serial);

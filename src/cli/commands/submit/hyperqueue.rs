@@ -33,7 +33,8 @@ pub(super) fn write(order: &Handover<'_>) -> Result<Submission, Failure> {
     // worker was lost is started again, and continues from its checkpoints.
     for (id, line) in lines.iter().enumerate() {
         let line_of_shell = format!(
-            "cd {here} && {program} {command} {file} --out {out} --job {line} --jobs {cores} || true"
+            "cd {here} && {program} {command} {file} --out {out} --job {line} --jobs {cores} \
+             || true"
         );
         text += &format!(
             "\n[[task]]\nid = {id}\ncommand = [\"bash\", \"-c\", {}]\ncrash_limit = 5\n\
