@@ -6,6 +6,7 @@ use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 use tempfile::NamedTempFile;
 
@@ -89,9 +90,10 @@ fn folder_of(path: &Path) -> &Path {
 }
 
 /// The name of an unfinished file of this process beside a file.
-pub(super) fn unfinished_beside(path: &Path, serial: u64) -> PathBuf {
-    let process = std::process::id();
-    let name = format!("{PREFIX}{}-{process}-lease-{serial}{SUFFIX}", machine());
+pub(super) fn unfinished_beside(path: &Path) -> PathBuf {
+    static FILES: AtomicU64 = AtomicU64::new(0);
+    let (process, number) = (std::process::id(), FILES.fetch_add(1, Ordering::Relaxed));
+    let name = format!("{PREFIX}{}-{process}-lease-{number}{SUFFIX}", machine());
     folder_of(path).join(name)
 }
 

@@ -390,7 +390,7 @@ fn with(path: &Path, end: &str) -> PathBuf {
 /// process was killed, would name nobody.
 fn make(path: &Path, holder: &Holder) -> io::Result<Option<File>> {
     let text = serde_json::to_string(holder).map_err(io::Error::other)?;
-    let unfinished = unfinished_beside(path, holder.serial);
+    let unfinished = unfinished_beside(path);
     let made = write_new(&unfinished, &text)?;
     let linked = fs::hard_link(&unfinished, path);
     // One that stays is removed by who writes here next.
