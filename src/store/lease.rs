@@ -29,7 +29,7 @@ const BEAT: Duration = Duration::from_secs(15);
 
 /// How long a holder on another machine may give no sign of life. Network file systems show a
 /// change after up to a minute.
-const PATIENCE: Duration = Duration::from_secs(120);
+const PATIENCE: Duration = Duration::from_mins(2);
 
 /// Time between two looks at a file whose holder may be dead.
 const BETWEEN_LOOKS: Duration = Duration::from_millis(500);

@@ -258,7 +258,7 @@ impl Folder {
     fn locked_by(&self, holder: Option<Holder>) -> FolderError {
         FolderError::Locked {
             path: self.root().to_owned(),
-            holder,
+            holder: holder.map(Box::new),
         }
     }
 

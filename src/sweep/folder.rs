@@ -83,7 +83,7 @@ pub enum FolderError {
         /// The folder.
         path: PathBuf,
         /// Which process, if it is known.
-        holder: Option<Holder>,
+        holder: Option<Box<Holder>>,
     },
     /// The file system says no.
     #[error("{}: {source}{}", path.display(), store::advice(source))]

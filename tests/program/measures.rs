@@ -51,7 +51,6 @@ fn rooms_stay_small() {
         ),
     ];
     for (what, number, most) in rows {
-        println!("{what}: {number}");
         assert!(number <= most, "{what}: {number}, more than {most}");
     }
 }
