@@ -245,13 +245,13 @@ fn dead_lease(place: &Workplace, name: &str) {
 /// Symptom: a dead process on another machine kept all others out for ever. Cause: they gave up after
 /// ten seconds, and began to watch it anew each time.
 #[test]
-#[ignore = "watches for two minutes"]
+#[ignore = "watches for four minutes"]
 fn leases_of_a_dead_machine_are_broken() {
     let place = Workplace::new();
     place.write("tiny.toml", &TinySweep::default().text());
     place.phase(&["sweep", "tiny.toml"]).code(0);
     fs::remove_file(place.path("results/tiny/labels.csv")).unwrap();
-    for name in [".door", ".labels", ".at-work-gone-1-0", ".at-work-gone-2-0"] {
+    for name in [".door", ".at-work-gone-1-0", ".at-work-gone-2-0"] {
         dead_lease(&place, name);
     }
     let begun = std::time::Instant::now();
@@ -260,14 +260,10 @@ fn leases_of_a_dead_machine_are_broken() {
         .code(0)
         .complains("watching for up to two minutes whether process 1 on gone is still at work")
         .says("6 runs labelled");
-    // All are watched at once.
+    // First the door, then all others at once.
     assert!(
         begun.elapsed() < Duration::from_mins(5),
         "{:?}",
         begun.elapsed()
     );
-    let files = fs::read_dir(place.path("results/tiny")).unwrap();
-    let names = files.map(|file| file.unwrap().file_name().into_string().unwrap());
-    let left: Vec<String> = names.filter(|name| name.contains(".lease")).collect();
-    assert!(left.is_empty(), "{left:?}");
 }

@@ -2,8 +2,9 @@ use super::*;
 use std::sync::Barrier;
 use std::sync::atomic::AtomicBool;
 
+/// So far apart that a busy machine does not take who lives to be dead.
 const BEAT_HERE: Duration = Duration::from_millis(30);
-const PATIENCE_HERE: Duration = Duration::from_millis(300);
+const PATIENCE_HERE: Duration = Duration::from_secs(1);
 
 /// The leases of a process on a machine of that name.
 fn on(host: &str, clock: fn() -> SystemTime) -> Leases {
@@ -91,7 +92,7 @@ fn clocks_of_machines_may_differ() {
         let second = on("second", clocks[1]);
         let lease = first.take(&path).unwrap().unwrap();
         let begun = Instant::now();
-        while begun.elapsed() < 3 * PATIENCE_HERE {
+        while begun.elapsed() < 2 * PATIENCE_HERE {
             assert!(
                 second.take(&path).unwrap().is_none(),
                 "taken from who lives"
@@ -170,7 +171,7 @@ fn of_many_that_want_it_at_once_one_has_it() {
     let wanting: Vec<Leases> = (0..8)
         .map(|number| on(&format!("machine {number}"), SystemTime::now))
         .collect();
-    for round in 0..24 {
+    for round in 0..8 {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("run.lease");
         // Nothing, a broken lease, and ones whose breakers died.
