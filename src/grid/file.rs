@@ -66,7 +66,7 @@ pub(crate) fn expand_axes(
     axes
 }
 
-/// A sweep has so many axes at most, that of its variants among them.
+/// Refuses more axes than a sweep may have; all variants together count as one.
 pub(crate) fn check_number_of_axes(axes: &[Axis], problems: &mut Vec<Problem>) {
     if axes.len() <= MOST_AXES {
         return;

@@ -331,7 +331,7 @@ mod tests {
         }
     }
 
-    /// Symptom: with variants as an axis of the figure the curve was that of the scene everywhere.
+    /// Symptom: with variants as an axis of the figure all had the curve of the base scene.
     /// Cause: only panels were known to stand for variants.
     #[test]
     fn rows_of_variants_have_pieces_of_their_own() {

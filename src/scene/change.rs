@@ -191,7 +191,7 @@ mod tests {
     }
 
     /// Symptom: a table kept keys of the scene that it did not name, unless it named another law.
-    /// Cause: tables were merged, but for those of another `law`, `kind` or `search`.
+    /// Cause: tables were merged, unless `law`, `kind` or `search` changed.
     #[test]
     fn a_table_replaces_the_old_one_and_a_key_keeps_the_others() {
         for table in [

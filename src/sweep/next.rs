@@ -72,9 +72,7 @@ impl NextJobs {
         shards.extend((!own.is_empty()).then_some(own));
         Shard::of_places(&self.jobs, &shards)
     }
-}
 
-impl NextJobs {
     /// The jobs at these places in so many shards of equal work, of which none is empty.
     pub fn parts(&self, places: &[usize], of: usize) -> Vec<Shard> {
         let work = places.iter().map(|&place| self.jobs[place].work());

@@ -137,7 +137,7 @@ impl Status {
         let unread = plan.jobs.iter();
         let unread = unread.filter(|it| it.1 == Standing::Unread).count();
         let read = good + bad;
-        // Of those that were not read as many in a hundred as of those that were.
+        // The records that were read stand for the others.
         let of_all = |number: usize| {
             let more = unread as f64 * number as f64 / read.max(1) as f64;
             number + more.round() as usize

@@ -142,7 +142,7 @@ fn a_study_goes_through_an_array() {
         .says("no run is missing");
 }
 
-/// Symptom: real sbatch refused scripts of paths with spaces or quotes, and commands replaced "{}" in
+/// Symptom: sbatch refused scripts of paths with spaces or quotes, and commands replaced "{}" in
 /// paths. Cause: paths stood in directives as they are.
 #[cfg(unix)]
 #[test]

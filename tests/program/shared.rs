@@ -242,8 +242,8 @@ fn dead_lease(place: &Workplace, name: &str) {
     place.write(&format!("results/tiny/{name}.lease"), text);
 }
 
-/// Symptom: a dead process on another machine kept all others out for ever. Cause: they gave up after
-/// ten seconds, and began to watch it anew each time.
+/// Symptom: a dead process on another machine kept all others out for ever. Cause: they gave up
+/// after ten seconds, and began to watch it anew each time.
 #[test]
 #[ignore = "watches for four minutes"]
 fn leases_of_a_dead_machine_are_broken() {

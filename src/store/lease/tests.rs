@@ -238,7 +238,7 @@ fn a_lease_appears_whole() {
     assert!(files(folder.path()).is_empty());
 }
 
-/// Even of a file that says nothing it is told after a while that nobody holds it.
+/// A file that says nothing is taken to be stale after a while, too.
 #[test]
 fn what_cannot_be_read_is_watched_too() {
     let folder = tempfile::tempdir().unwrap();

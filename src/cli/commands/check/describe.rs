@@ -40,7 +40,7 @@ pub(super) fn describe_sweep(sweep: &Sweep, jobs: usize) -> String {
     lines.join("\n")
 }
 
-/// A line about the scene; about those of variants a line each where they differ.
+/// A line about the scene, or a line for each variant where their scenes differ.
 fn of_scenes(sweep: &Sweep, name: &str, describe: impl Fn(&Scene) -> String) -> Vec<String> {
     let mut told: Vec<(String, Vec<String>)> = Vec::new();
     let names = sweep.variants();
