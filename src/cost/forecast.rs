@@ -226,12 +226,14 @@ mod tests {
         let job = job();
         let record = run::run(&job.scene, &mut |_| ControlFlow::Continue(())).unwrap();
         let size = size_of_record(&record).unwrap();
-        for (frames, tolerance) in [(2400, 1.3), (200, 2.5)] {
+        // The spheres come to rest, and frames at rest take a quarter of the place of the first
+        // ones: a trial of the first frames forecasts too much, never too little.
+        for (frames, most) in [(2400, 1.3), (200, 5.0)] {
             let forecast = size_of_whole_run(&job, frames).unwrap();
             let ratio = forecast / size;
             assert!(
-                (1.0 / tolerance..tolerance).contains(&ratio),
-                "{forecast} for {size}"
+                (0.8..most).contains(&ratio),
+                "{frames} frames: {forecast} for {size}"
             );
         }
     }
