@@ -34,7 +34,7 @@ impl Processes {
     fn run_job(&self, batch: &Batch<'_>, job: &Job) -> Result<Option<RunRecord>, Box<dyn Error>> {
         let file = |end: &str| self.place.join(format!("{}.{end}", job.id));
         let (scene, record) = (file("toml"), file("h5"));
-        std::fs::write(&scene, toml::to_string(&job.scene)?)?;
+        std::fs::write(&scene, toml::to_string(&job.scene())?)?;
         let mut child = Command::new(&self.program)
             .args([Path::new("run"), &scene, Path::new("--out"), &record])
             .args(["--quiet", "--threads", "1"])

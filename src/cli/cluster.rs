@@ -3,7 +3,7 @@
 use super::exit::Failure;
 use super::folders;
 use phase::cost::{self, Forecast};
-use phase::study::comparison::RunTable;
+use phase::study::comparison::{Comparison, RunTable};
 use phase::study::{AnyFile, AnyStudy};
 use phase::sweep::{Folder, Job, NextJobs, Plan, Sweep};
 use std::path::{Path, PathBuf};
@@ -39,15 +39,17 @@ impl Handed {
                     command: "sweep",
                 })
             }
-            AnyFile::Study(study) => Self::of_study(&study, file, out, workers),
+            AnyFile::Study(study) => Self::of_study(study, file, out, workers),
             AnyFile::Scene(_) => {
                 Err(Failure::refused("this is a scene, one run: `phase run` makes it").at(file))
             }
         }
     }
 
+    /// The runs of a study that are next: of an ablation pairs of effects, once all runs of single
+    /// ones are there.
     fn of_study(
-        study: &AnyStudy,
+        study: AnyStudy,
         file: &Path,
         out: Option<&PathBuf>,
         workers: usize,
@@ -58,6 +60,26 @@ impl Handed {
         };
         let by_default = || folders::default_folder_of_study(study.name(), file);
         let folder = Folder::new(out.cloned().unwrap_or_else(by_default));
+        let handed = Self::of_comparison(comparison, folder.clone(), workers)?;
+        let AnyStudy::Ablation(ablation) = &study else {
+            return Ok(handed);
+        };
+        if !handed.next.missing.is_empty() {
+            return Ok(handed);
+        }
+        let mut table = RunTable::read(comparison, &folder).map_err(Failure::refused)?;
+        table.add_records(comparison, &folder, workers)?;
+        match ablation.with_pairs(&table.rows)? {
+            Some(pairs) => Self::of_comparison(&pairs.comparison, folder, workers),
+            None => Ok(handed),
+        }
+    }
+
+    fn of_comparison(
+        comparison: &Comparison,
+        folder: Folder,
+        workers: usize,
+    ) -> Result<Self, Failure> {
         let table = RunTable::read(comparison, &folder).map_err(Failure::refused)?;
         let plan = Plan::new(&folder, comparison.jobs.clone(), workers)?;
         Ok(Self {

@@ -4,7 +4,7 @@ use super::console::Console;
 use super::exit::{Exit, Failure};
 use phase::store::{self, Holder};
 use phase::study::StudyName;
-use phase::sweep::Folder;
+use phase::sweep::{Folder, Sweep};
 use serde::Serialize;
 use std::fs::File;
 use std::io::Read;
@@ -222,4 +222,31 @@ pub(super) fn refuse_other_frames(
         .at(beyond));
     }
     Ok(())
+}
+
+/// Refuses the folder that the name of a sweep or study file gives if another file of that name has
+/// other runs there.
+pub(super) fn refuse_another_file(
+    folder: &Folder,
+    sweep: &Sweep,
+    file: &Path,
+) -> Result<(), Failure> {
+    let (Some(source), Ok(stored)) = (folder.source(), folder.read_sweep()) else {
+        return Ok(());
+    };
+    let is_same = file.canonicalize().is_ok_and(|it| it == source);
+    let is_namesake = !is_same && file.file_name() == source.file_name();
+    if !is_namesake || stored.keys_of_other_runs(sweep).is_empty() {
+        return Ok(());
+    }
+    let what = match sweep.study {
+        Some(_) => "study",
+        None => "sweep",
+    };
+    Err(Failure::refused(format_args!(
+        "this folder holds the results of {}, another {what} of the same name; choose another \
+         folder with --out",
+        source.display()
+    ))
+    .at(folder.root()))
 }

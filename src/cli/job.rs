@@ -36,7 +36,7 @@ impl NamedJob {
 /// The unit in which the work of jobs is counted.
 pub(super) fn unit_of(jobs: &[Job]) -> &'static str {
     let first = jobs.first();
-    first.map_or("", |job| run::model_of(&job.scene).work_unit())
+    first.map_or("", |job| run::model_of(&job.scene()).work_unit())
 }
 
 /// Values by the names of their axes; variants are named.

@@ -18,7 +18,7 @@ mod options;
 mod overlaps;
 mod progress;
 mod refined;
-mod rounds;
+mod runner;
 mod runs;
 mod time_step;
 mod values;

@@ -17,7 +17,7 @@ pub(super) fn warn_of_scene(scene: &Scene, console: &Console) {
 /// As [`warn_of_scene`], for the job that has the fastest one.
 pub(super) fn warn_of_jobs(jobs: &[Job], axes: &[Axis], console: &Console) {
     let releases = jobs.iter().filter_map(|job| {
-        let release = Release::of_scene(&job.scene)?;
+        let release = Release::of_scene(&job.scene())?;
         Some((release, job))
     });
     let fastest = releases.max_by(|(a, _), (b, _)| a.fastest.speed.total_cmp(&b.fastest.speed));

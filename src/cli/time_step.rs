@@ -18,7 +18,7 @@ pub(super) struct Tightest<'a> {
 pub(super) fn tightest_limits(jobs: &[Job]) -> Vec<Tightest<'_>> {
     let mut tightest: Vec<Tightest<'_>> = Vec::new();
     for job in jobs {
-        for standing in StepMargin::all(&job.scene) {
+        for standing in StepMargin::all(&job.scene()) {
             let next = Tightest { standing, job };
             match tightest
                 .iter_mut()
@@ -56,10 +56,10 @@ pub(super) fn tell_of_jobs(jobs: &[Job], axes: &[Axis], console: &Console) {
     match tightest.first().filter(|it| it.standing.limit.decisive) {
         Some(nearest) => {
             let at = format!(" at {}, the nearest to its limit", point(nearest, axes));
-            let scene = &nearest.job.scene;
+            let scene = &nearest.job.scene();
             console.note(describe_step(scene, Some(&nearest.standing), &at));
         }
-        None if jobs.iter().all(|job| job.scene.spot.is_some()) => {}
+        None if jobs.iter().all(|job| job.scene().spot.is_some()) => {}
         None => console
             .note("time step: nothing in these scenes sets a limit beyond which it is refused"),
     }
@@ -147,11 +147,11 @@ pub(super) fn describe_choice(sweep: &Sweep, jobs: &[Job]) -> Option<String> {
     if jobs.is_empty() {
         return None;
     }
-    let steps = jobs.iter().map(|job| job.scene.time.dt);
+    let steps = jobs.iter().map(|job| job.scene().time.dt);
     let (low, high) = steps.fold((f64::INFINITY, 0.0_f64), |(low, high), dt| {
         (low.min(dt), high.max(dt))
     });
-    let least = jobs.iter().filter_map(|job| timestep::least(&job.scene));
+    let least = jobs.iter().filter_map(|job| timestep::least(&job.scene()));
     let names: BTreeSet<&str> = least.map(|limit| limit.name).collect();
     let names: Vec<&str> = names.into_iter().collect();
     let steps = if low == high {

@@ -116,18 +116,19 @@ fn try_job(job: &Job, budget: Duration) -> Result<Trial, ForecastError> {
         id: job.id.clone(),
         source,
     };
-    if matches!(job.scene.start, Start::Packing {}) {
+    let scene = job.scene();
+    if matches!(scene.start, Start::Packing {}) {
         // A packing is made once and kept: before the clock runs.
-        let built = run::model_of(&job.scene).build(&job.scene);
+        let built = run::model_of(&scene).build(&scene);
         built.map_err(|source| failed(source.into()))?;
     }
     // The rest of the budget is for runs that end, since only these tell the size of a whole
     // record.
-    let cost = RunCost::measure(&job.scene, budget / 2).map_err(failed)?;
+    let cost = RunCost::measure(&scene, budget / 2).map_err(failed)?;
     let disk = match cost.whole {
         true => size_of_record(&cost.record)?,
         false => {
-            let all_frames = job.scene.time.frames();
+            let all_frames = scene.time.frames();
             size_of_whole_run(job, (cost.frames / 2).max(2).min(all_frames))?
         }
     };
@@ -137,7 +138,7 @@ fn try_job(job: &Job, budget: Duration) -> Result<Trial, ForecastError> {
         once: cost.seconds(START) + cost.seconds(RECORD),
         disk,
         // The record in memory and as the bytes of its file, neither compressed.
-        memory: 4.0 * disk + job.scene.spheres.count as f64 * ENGINE_BYTES,
+        memory: 4.0 * disk + scene.spheres.count as f64 * ENGINE_BYTES,
     })
 }
 
@@ -169,8 +170,9 @@ fn stored_states(scene: &Scene) -> f64 {
 /// that they forecast too much.
 fn size_of_whole_run(job: &Job, frames: u64) -> Result<f64, ForecastError> {
     let states = |scene: &Scene| stored_states(scene) * scene.spheres.count as f64 * STATE_BYTES;
+    let whole = job.scene();
     let size_without_states = |frames: u64| {
-        let mut scene = job.scene.clone();
+        let mut scene = whole.clone();
         scene.time.duration = frames as f64 * scene.time.frame_interval;
         let record = run::run(&scene, &mut |_| ControlFlow::Continue(()));
         let record = record.map_err(|source| ForecastError::Run {
@@ -183,8 +185,8 @@ fn size_of_whole_run(job: &Job, frames: u64) -> Result<f64, ForecastError> {
     let (size, observed) = size_without_states(frames)?;
     let (half_size, half_observed) = size_without_states((frames / 2).max(1))?;
     let per_frame = (size - half_size) / (observed - half_observed).max(1.0);
-    let all_frames = job.scene.time.frames() as f64;
-    Ok(size + per_frame.max(0.0) * (all_frames - observed).max(0.0) + states(&job.scene))
+    let all_frames = whole.time.frames() as f64;
+    Ok(size + per_frame.max(0.0) * (all_frames - observed).max(0.0) + states(&whole))
 }
 
 /// Size of the file of a record (bytes).
@@ -213,18 +215,13 @@ mod tests {
 
     fn job() -> Job {
         let scene: Scene = toml::from_str(SCENE).unwrap();
-        Job {
-            id: scene.identity(),
-            values: vec![],
-            seed: scene.seed,
-            scene,
-        }
+        Job::alone(scene.identity(), vec![], scene)
     }
 
     #[test]
     fn two_short_runs_tell_the_size_of_a_whole_record() {
         let job = job();
-        let record = run::run(&job.scene, &mut |_| ControlFlow::Continue(())).unwrap();
+        let record = run::run(&job.scene(), &mut |_| ControlFlow::Continue(())).unwrap();
         let size = size_of_record(&record).unwrap();
         // The spheres come to rest, and frames at rest take a quarter of the place of the first
         // ones: a trial of the first frames forecasts too much, never too little.

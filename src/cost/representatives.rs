@@ -4,7 +4,7 @@ use crate::scene::Integrator;
 use crate::sweep::Job;
 
 /// A job that stands for those nearest to it.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Representative<'a> {
     /// The job.
     pub(super) job: &'a Job,
@@ -32,7 +32,7 @@ pub(super) fn representatives(jobs: &[Job]) -> Vec<Representative<'_>> {
     }
     // A study goes over the grid once with each integrator.
     for integrator in Integrator::ALL {
-        let own = |job: &&Job| job.scene.time.integrator == integrator;
+        let own = |job: &&Job| job.integrator() == integrator;
         let of_it: Vec<&Job> = of_first_seed.iter().copied().filter(own).collect();
         let Some(&middle) = of_it.get(of_it.len() / 2) else {
             continue;
@@ -86,7 +86,7 @@ fn place(job: &Job, axes: &[Vec<f64>]) -> Vec<f64> {
     };
     let place = axes.iter().zip(&job.values).map(along);
     // Whatever the axes, no job stands for one of another integrator.
-    let integrator = (2 * axes.len() * job.scene.time.integrator as usize) as f64;
+    let integrator = (2 * axes.len() * job.integrator() as usize) as f64;
     place.chain([integrator]).collect()
 }
 
@@ -111,13 +111,17 @@ mod tests {
         for x in 0..values {
             for y in 0..values {
                 for seed in 1..=seeds {
-                    jobs.push(Job {
-                        id: format!("{x} {y} {seed}"),
-                        // Far from even, as a logarithmic axis.
-                        values: vec![x as f64, (1_u64 << (3 * y)) as f64],
-                        seed,
-                        scene: scene.clone(),
-                    });
+                    let id = format!("{x} {y} {seed}");
+                    // Far from even, as a logarithmic axis.
+                    let values = vec![x as f64, (1_u64 << (3 * y)) as f64];
+                    jobs.push(Job::alone(
+                        id,
+                        values,
+                        Scene {
+                            seed,
+                            ..scene.clone()
+                        },
+                    ));
                 }
             }
         }
@@ -153,18 +157,20 @@ mod tests {
     fn jobs_of_an_integrator_stand_for_its_own() {
         let mut jobs = Vec::new();
         for integrator in [Integrator::VelocityVerlet, Integrator::AdaptiveVerlet] {
-            for mut job in grid(3, 1) {
-                job.scene.time.integrator = integrator;
-                job.id = format!("{integrator:?} {}", job.id);
-                jobs.push(job);
+            for job in grid(3, 1) {
+                let mut scene = job.scene();
+                scene.time.integrator = integrator;
+                jobs.push(Job::alone(
+                    format!("{integrator:?} {}", job.id),
+                    job.values,
+                    scene,
+                ));
             }
         }
         let chosen = representatives(&jobs);
         assert_eq!(chosen.len(), 10);
         for integrator in [Integrator::VelocityVerlet, Integrator::AdaptiveVerlet] {
-            let own = chosen
-                .iter()
-                .filter(|it| it.job.scene.time.integrator == integrator);
+            let own = chosen.iter().filter(|it| it.job.integrator() == integrator);
             assert_eq!(own.map(|it| it.jobs).sum::<usize>(), 9);
         }
     }

@@ -46,7 +46,7 @@ impl<'a> SweepCost<'a> {
         let chosen = representatives(jobs);
         let budget = budget / (chosen.len() as u32).max(1);
         let tried = chosen.into_iter().map(|it| {
-            let cost = RunCost::measure(&it.job.scene, budget)?;
+            let cost = RunCost::measure(&it.job.scene(), budget)?;
             Ok(TriedJob {
                 job: it.job,
                 jobs: it.jobs,

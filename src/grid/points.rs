@@ -1,7 +1,7 @@
 //! The points of a grid and their scenes.
 
 use super::{Axis, Variant};
-use crate::document::{Problem, number};
+use crate::document::Problem;
 use crate::scene::{Scene, Template};
 
 /// A point of the grid whose scene cannot be run.
@@ -60,15 +60,15 @@ pub(crate) fn number_of_points(axes: &[Axis]) -> usize {
 }
 
 /// The scenes of the points of a grid.
-pub(crate) struct PointScenes<'a> {
-    axes: &'a [Axis],
+pub(crate) struct PointScenes {
+    axes: Vec<Axis>,
     /// One for each variant; one alone without variants.
     templates: Vec<Template>,
 }
 
-impl<'a> PointScenes<'a> {
+impl PointScenes {
     /// The scenes of all points, made of `scene`, whose numbers must be in their ranges.
-    pub(crate) fn new(scene: &Scene, axes: &'a [Axis]) -> Result<Self, PointError> {
+    pub(crate) fn new(scene: &Scene, axes: &[Axis]) -> Result<Self, PointError> {
         let numbers = axes.iter().filter(|axis| !axis.is_of_variants());
         let keys: Vec<&str> = numbers.map(|axis| axis.key.as_str()).collect();
         let template = |scene: &Scene| {
@@ -82,24 +82,32 @@ impl<'a> PointScenes<'a> {
         if templates.is_empty() {
             templates.push(template(scene)?);
         }
-        Ok(Self { axes, templates })
+        Ok(Self {
+            axes: axes.to_vec(),
+            templates,
+        })
     }
 
     /// The scene of a point. Only the ranges of its numbers are checked.
-    pub(crate) fn unchecked(&mut self, values: &[f64]) -> Result<Scene, PointError> {
-        let scaled = self.axes.iter().zip(values_of_keys(self.axes, values));
+    pub(crate) fn unchecked(&self, values: &[f64]) -> Result<Scene, PointError> {
+        let scaled = self.axes.iter().zip(values_of_keys(&self.axes, values));
         let (variants, numbers): (Vec<_>, Vec<_>) =
             scaled.partition(|(axis, _)| axis.is_of_variants());
         let numbers: Vec<f64> = numbers.into_iter().map(|(_, value)| value).collect();
         let template = variants.first().map_or(0, |(_, place)| *place as usize);
         let scene = self.templates[template].with(&numbers);
-        scene.map_err(|problems| PointError::new(self.axes, values, problems))
+        scene.map_err(|problems| self.error(values, problems))
     }
 
     /// The scene that is run at a point.
-    pub(crate) fn checked(&mut self, values: &[f64]) -> Result<Scene, PointError> {
+    pub(crate) fn checked(&self, values: &[f64]) -> Result<Scene, PointError> {
         let scene = self.unchecked(values)?.with_chosen_step_in_range();
-        scene.map_err(|problems| PointError::new(self.axes, values, problems))
+        scene.map_err(|problems| self.error(values, problems))
+    }
+
+    /// What is wrong at a point.
+    pub(crate) fn error(&self, values: &[f64], problems: Vec<Problem>) -> PointError {
+        PointError::new(&self.axes, values, problems)
     }
 }
 
@@ -107,16 +115,10 @@ impl PointError {
     /// What is wrong at the point with these values.
     pub(crate) fn new(axes: &[Axis], values: &[f64], problems: Vec<Problem>) -> Self {
         let pairs = axes.iter().zip(values);
-        let mut places = pairs.clone().filter(|(axis, _)| axis.is_of_variants());
+        let mut places = pairs.filter(|(axis, _)| axis.is_of_variants());
         let variant = places.next().map(|(_, place)| *place as usize);
-        let pairs: Vec<String> = pairs
-            .map(|(axis, &value)| match axis.variant(value) {
-                Some(variant) => format!("{} = {}", axis.name, variant.name),
-                None => format!("{} = {}", axis.name, number(value)),
-            })
-            .collect();
         Self {
-            point: pairs.join(", "),
+            point: describe_point(axes, values),
             variant,
             problems,
         }

@@ -105,7 +105,7 @@ fn curves(source: &Source<'_>) -> Option<Vec<CriticalCurve>> {
     let moves = |axis: &Axis| axis.is_of_variants() || MOVING.contains(&axis.key.as_str());
     let axes = sweep.axes.iter().filter(|axis| moves(axis));
     let axes: Vec<Axis> = axes.cloned().collect();
-    let mut scenes = PointScenes::new(&sweep.scene, &axes).ok()?;
+    let scenes = PointScenes::new(&sweep.scene, &axes).ok()?;
     let mut curves: Vec<CriticalCurve> = Vec::new();
     for point in grid::points(&axes) {
         // What moves no curve was not put in, so that this need not be a scene that runs.

@@ -11,7 +11,7 @@ use crate::record::Program;
 use crate::store::StoreError;
 use crate::study::comparison::RunRow;
 use crate::study::stability::StabilityStudy;
-use crate::sweep::Sweep;
+use crate::sweep::{RunScenes, Sweep};
 use std::path::Path;
 
 /// What the legend calls the full and the dashed curves.
@@ -65,9 +65,10 @@ fn curves(sweep: &Sweep, integrator: f64, x: &GridAxis, y: &GridAxis) -> Vec<Pan
         up.iter()
             .map(move |&y_value| [x_value, y_value, integrator])
     });
+    let scenes = RunScenes::new(sweep).ok();
     let all: Vec<Option<(f64, Vec<Limit>)>> = at_nodes
         .map(|values| {
-            let scene = sweep.scene_at(&values).ok()?;
+            let scene = scenes.as_ref()?.at(&values).ok()?;
             Some((scene.time.dt, limits(&scene)))
         })
         .collect();

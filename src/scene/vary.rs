@@ -7,11 +7,12 @@ use crate::document::kind::ValueKind;
 use serde::Deserialize;
 use serde_json::Value;
 use std::borrow::Cow;
+use std::sync::{Mutex, PoisonError};
 
 /// A scene in which the values of some keys are set repeatedly. Keys are looked up once, and each
 /// scene is read from the tree of values without copying it.
 pub(crate) struct Template {
-    tree: Value,
+    tree: Mutex<Value>,
     keys: Vec<NumericKey>,
     /// The start shared by all scenes, if it lists spheres and no key belongs to one of them. In a
     /// tree of values a sphere takes more than a kilobyte.
@@ -32,7 +33,7 @@ impl Template {
             keys.find(|key| key.path == **path).ok_or_else(absent)
         };
         Ok(Self {
-            tree: scene.tree(),
+            tree: Mutex::new(scene.tree()),
             keys: paths.iter().map(key).collect::<Result<_, _>>()?,
             start: matches!(scene, Cow::Owned(_)).then(|| whole.start.clone()),
         })
@@ -42,8 +43,10 @@ impl Template {
     ///
     /// # Errors
     /// Values of the wrong type or out of range.
-    pub(crate) fn with(&mut self, values: &[f64]) -> Result<Scene, Vec<Problem>> {
+    pub(crate) fn with(&self, values: &[f64]) -> Result<Scene, Vec<Problem>> {
         let mut problems = Vec::new();
+        // All keys are set each time, so that a tree left half set does no harm.
+        let mut tree = self.tree.lock().unwrap_or_else(PoisonError::into_inner);
         for (key, &value) in self.keys.iter().zip(values) {
             let is_count = matches!(key.kind, ValueKind::Whole(_))
                 && value >= 0.0
@@ -53,12 +56,12 @@ impl Template {
                 false => Value::from(value),
             };
             key.kind.check(&number, &key.path, &mut problems);
-            set(&mut self.tree, &key.path, number);
+            set(&mut tree, &key.path, number);
         }
         if !problems.is_empty() {
             return Err(problems);
         }
-        let mut scene = Scene::deserialize(&self.tree)
+        let mut scene = Scene::deserialize(&*tree)
             .map_err(|error| vec![Problem::new("", format!("not a scene: {error}"))])?;
         if let Some(start) = &self.start {
             scene.start = start.clone();

@@ -397,7 +397,11 @@ fn make(path: &Path, holder: &Holder) -> io::Result<Option<File>> {
     let _ = fs::remove_file(&unfinished);
     match (made, linked) {
         (Some(file), Ok(())) => Ok(Some(file)),
-        (_, Err(error)) if error.kind() == ErrorKind::AlreadyExists => Ok(None),
+        // Where NFS loses an answer and asks again, it finds the link that it has made.
+        (made, Err(error)) if error.kind() == ErrorKind::AlreadyExists => {
+            let is_ours = look(path)?.is_some_and(|it| it.holder.as_ref() == Some(holder));
+            Ok(made.filter(|_| is_ours))
+        }
         (_, Err(error)) if error.kind() == ErrorKind::NotFound => Err(error),
         // Not every file system has links.
         _ => write_new(path, &text),

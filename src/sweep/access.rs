@@ -31,6 +31,20 @@ const BETWEEN_TRIES: Duration = Duration::from_millis(50);
 /// How the name of the lease begins that says that a process is in a folder.
 const PRESENCE: &str = ".at-work-";
 
+/// The lease of who labels the runs.
+const LABELS: &str = ".labels";
+
+/// A sweep; of a study without its last axis, the settings.
+fn without_settings(sweep: &Sweep) -> Sweep {
+    match sweep.study {
+        None => sweep.clone(),
+        Some(_) => Sweep {
+            axes: sweep.axes[..sweep.axes.len().saturating_sub(1)].to_vec(),
+            ..sweep.clone()
+        },
+    }
+}
+
 /// How processes share a folder: each [enters](Folder::enter) it with its sweep. One that is alone
 /// then may still change what the folder holds, until it [opens](Folder::open) the folder for
 /// others that run the same sweep. What changes labels or runs everything again
@@ -75,14 +89,17 @@ impl Folder {
     /// Whether what is run into the folder goes together with a sweep: it is the same, or a study
     /// of the same grid. Which settings a study has may follow from its first runs.
     fn is_run_with(&self, sweep: &Sweep) -> bool {
-        let basis = |sweep: &Sweep| match sweep.study {
-            None => sweep.clone(),
-            Some(_) => Sweep {
-                axes: sweep.axes[..sweep.axes.len().saturating_sub(1)].to_vec(),
-                ..sweep.clone()
-            },
-        };
-        self.read_sweep().is_ok_and(|it| basis(&it) == basis(sweep))
+        self.read_sweep()
+            .is_ok_and(|it| without_settings(&it) == without_settings(sweep))
+    }
+
+    /// The study of the folder, if it is that of a sweep with more settings.
+    pub(super) fn extension_of(&self, sweep: &Sweep) -> Option<Sweep> {
+        let stored = self.read_sweep().ok().filter(|it| it.study.is_some())?;
+        let [more, own] = [&stored, sweep].map(|it| it.axes.last().map(|axis| &axis.variants));
+        let is_longer = more?.len() > own?.len() && more?.starts_with(own?);
+        let is_extended = is_longer && without_settings(&stored) == without_settings(sweep);
+        is_extended.then_some(stored)
     }
 
     /// Lets other processes run the same sweep into the folder. If no other process is there, what
@@ -149,7 +166,7 @@ impl Folder {
     /// # Errors
     /// If the file of the lease cannot be made.
     pub fn lease_of_labels(&self, wait: &dyn Fn(&Holder)) -> Result<Option<Lease>, FolderError> {
-        let name = self.root().join(".labels");
+        let name = self.root().join(LABELS);
         loop {
             let taken = Lease::take(&name).map_err(|it| self.io_error(it))?;
             if taken.is_some() || matches!(Lease::watch(&name, wait), Tenure::Held(_)) {
@@ -189,10 +206,11 @@ impl Folder {
             if let Some(door) = Lease::take(&name).map_err(|it| self.io_error(it))? {
                 return Ok(door);
             }
-            if begun.elapsed() > AT_THE_DOOR
-                && let Tenure::Held(holder) = Lease::watch(&name, wait)
-            {
-                return Err(self.locked_by(holder));
+            if begun.elapsed() > AT_THE_DOOR {
+                self.begin_to_watch()?;
+                if let Tenure::Held(holder) = Lease::watch(&name, wait) {
+                    return Err(self.locked_by(holder));
+                }
             }
             thread::sleep(BETWEEN_TRIES);
         }
@@ -216,17 +234,22 @@ impl Folder {
 
     /// Another process that is known to live. Watches those that are not.
     fn other_for_sure(&self, wait: &dyn Fn(&Holder)) -> Result<Option<Holder>, FolderError> {
-        let names = self.presences()?;
-        // All are watched from now on, not one after the other.
-        for name in &names {
-            Lease::tenure(&self.root().join(name));
-        }
-        for name in names {
+        self.begin_to_watch()?;
+        for name in self.presences()? {
             if let Tenure::Held(Some(holder)) = Lease::watch(&self.root().join(&name), wait) {
                 return Ok(Some(holder));
             }
         }
         Ok(None)
+    }
+
+    /// Watches all leases from now on, so that those of dead processes are not waited for one after
+    /// the other.
+    fn begin_to_watch(&self) -> Result<(), FolderError> {
+        for name in self.presences()?.iter().map(String::as_str).chain([LABELS]) {
+            Lease::tenure(&self.root().join(name));
+        }
+        Ok(())
     }
 
     /// The names of the leases of processes that said that they are in the folder.

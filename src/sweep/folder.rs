@@ -1,6 +1,7 @@
 //! The results folder of a sweep: what lies where in it.
 
-use super::{Job, Refining, Sweep, read_failures};
+use super::plan::standing;
+use super::{Job, Refining, Standing, Sweep, read_failures};
 use crate::classify::LabelRow;
 use crate::grid::Axis;
 use crate::record::RunRecord;
@@ -225,8 +226,18 @@ impl Folder {
         self.files_of_runs(".h5")
     }
 
+    /// Identities of the runs that have a checkpoint, from one look at the folder.
+    pub(super) fn with_checkpoint(&self) -> Result<HashSet<String>, FolderError> {
+        self.files_of_runs(".checkpoint")
+    }
+
+    /// Whether a job has a good record.
+    pub(super) fn is_done(&self, job: &Job) -> bool {
+        matches!(standing(job, &self.record(&job.id)), Standing::Done(_))
+    }
+
     /// Identities of the runs that have a file with this end of its name beside the records.
-    pub(super) fn files_of_runs(&self, end: &str) -> Result<HashSet<String>, FolderError> {
+    fn files_of_runs(&self, end: &str) -> Result<HashSet<String>, FolderError> {
         let path = self.records();
         let io_error = |source| FolderError::Io {
             path: path.clone(),

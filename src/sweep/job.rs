@@ -1,13 +1,16 @@
 //! The jobs of a sweep: every point of its grid with every seed.
 
 use super::Sweep;
-use crate::grid::{self, PointError, PointScenes};
+use super::study::RunScenes;
+use crate::grid::{self, PointError};
 use crate::refine::start;
 use crate::run::{self, Progress};
-use crate::scene::Scene;
+use crate::scene::{Integrator, Scene};
+use std::fmt;
+use std::sync::Arc;
 
 /// One job of a sweep.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Job {
     /// Identity of the run: the name of its record. That of the [scene](Scene::identity), unless
     /// runs are [timed](super::StudyRuns::Timed).
@@ -16,20 +19,71 @@ pub struct Job {
     pub values: Vec<f64>,
     /// Seed.
     pub seed: u64,
-    /// The resolved scene.
-    pub scene: Scene,
+    work: u64,
+    integrator: Integrator,
+    scene: JobScene,
+}
+
+/// Where the scene of a job comes from.
+#[derive(Clone)]
+enum JobScene {
+    /// It belongs to no sweep.
+    Alone(Arc<Scene>),
+    /// It is made from the values and the seed: a million of them would fill the memory.
+    OfSweep(Arc<RunScenes>),
+}
+
+impl fmt::Debug for JobScene {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Alone(scene) => scene.fmt(f),
+            Self::OfSweep(_) => f.write_str("of the sweep"),
+        }
+    }
 }
 
 impl Job {
+    /// A job of a scene that belongs to no sweep.
+    pub fn alone(id: String, values: Vec<f64>, scene: Scene) -> Self {
+        Self {
+            id,
+            values,
+            seed: scene.seed,
+            work: work_of(&scene),
+            integrator: scene.time.integrator,
+            scene: JobScene::Alone(Arc::new(scene)),
+        }
+    }
+
+    /// The resolved scene, made anew with each call (some microseconds).
+    pub fn scene(&self) -> Scene {
+        match &self.scene {
+            JobScene::Alone(scene) => scene.as_ref().clone(),
+            JobScene::OfSweep(scenes) => Scene {
+                seed: self.seed,
+                ..scenes.at(&self.values).expect("it was made with the job")
+            },
+        }
+    }
+
+    /// The integrator of the scene.
+    pub(crate) fn integrator(&self) -> Integrator {
+        self.integrator
+    }
+
     /// Work of the whole run, at most, in the unit of its model.
     pub fn work(&self) -> u64 {
-        run::model_of(&self.scene).work_of(&self.scene)
+        self.work
     }
 
     /// Work of the run so far, estimated from its progress.
     pub fn work_at(&self, progress: &Progress) -> u64 {
         (progress.share() * self.work() as f64) as u64
     }
+}
+
+fn work_of(scene: &Scene) -> u64 {
+    run::model_of(scene).work_of(scene)
 }
 
 impl Sweep {
@@ -57,13 +111,13 @@ impl Sweep {
         &self,
         runs: impl Iterator<Item = (Vec<f64>, u64)>,
     ) -> Result<Vec<Job>, PointError> {
-        let mut scenes = PointScenes::new(&self.scene, &self.axes)?;
+        let scenes = Arc::new(RunScenes::new(self)?);
         let mut last: Option<(Vec<f64>, Scene)> = None;
         let mut jobs = Vec::new();
         for (values, seed) in runs {
             let scene = match last {
                 Some((at, scene)) if at == values => scene,
-                _ => self.scene_of_run(&mut scenes, &values)?,
+                _ => scenes.at(&values)?,
             };
             let of_seed = Scene {
                 seed,
@@ -73,7 +127,9 @@ impl Sweep {
                 id: self.id_of_run(&of_seed, &values),
                 values: values.clone(),
                 seed,
-                scene: of_seed,
+                work: work_of(&of_seed),
+                integrator: of_seed.time.integrator,
+                scene: JobScene::OfSweep(Arc::clone(&scenes)),
             });
             last = Some((values, scene));
         }

@@ -247,15 +247,15 @@ impl Sweep {
     /// Why they cannot.
     pub fn check_sieves(&self, jobs: &[Job]) -> Result<(), ClassifyError> {
         jobs.iter()
-            .try_for_each(|job| self.sieves.check(&job.scene))
+            .try_for_each(|job| self.sieves.check(&job.scene()))
     }
 
     /// Sieves that find nothing in some runs, or in all, because these are too short.
     pub fn sieves_without_room(&self, jobs: &[Job]) -> Vec<WithoutRoom> {
         let mut found: Vec<WithoutRoom> = Vec::new();
-        for scene in jobs.iter().map(|job| &job.scene) {
+        for scene in jobs.iter().map(Job::scene) {
             let duration = scene.time.duration;
-            for (sieve, window) in self.sieves.without_room(scene) {
+            for (sieve, window) in self.sieves.without_room(&scene) {
                 match found.iter_mut().find(|known| known.sieve == sieve) {
                     Some(known) => {
                         known.runs += 1;

@@ -242,7 +242,7 @@ fn check_grid(sweep: &Sweep, document: &Document, problems: &mut Vec<Problem>) {
     if !check_jobs(jobs, "use fewer values or seeds", problems) {
         return;
     }
-    let mut scenes = match PointScenes::new(&sweep.scene, &sweep.axes) {
+    let scenes = match PointScenes::new(&sweep.scene, &sweep.axes) {
         Ok(scenes) => scenes,
         Err(error) => return problems.extend(error.problems),
     };

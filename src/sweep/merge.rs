@@ -1,10 +1,10 @@
 //! Results folders of one sweep that were made apart.
 
 use super::failures::FailureTable;
-use super::plan::{Standing, standing};
-use super::{Folder, FolderError, Job, read_failures};
+use super::{Failure, Folder, FolderError, Job, read_failures};
 use crate::grid::Axis;
 use crate::store::{self, StoreError};
+use std::collections::HashMap;
 use std::fs;
 
 /// What a folder has taken from another one.
@@ -34,11 +34,10 @@ impl Folder {
         let mut taken = Taken::default();
         for job in jobs.iter().filter(|job| theirs.contains(&job.id)) {
             let (path, from) = (self.record(&job.id), other.record(&job.id));
-            let is_good = |path| matches!(standing(job, path), Standing::Done(_));
-            if !is_good(&from) {
+            if !other.is_done(job) {
                 let reason = "is no good record of this sweep";
                 taken.left.push(format!("{}: {reason}", from.display()));
-            } else if own.contains(&job.id) && is_good(&path) {
+            } else if own.contains(&job.id) && self.is_done(job) {
                 taken.both += 1;
                 let digest = |path| store::read_record(path).map(|it| store::content_digest(&it));
                 if digest(&path)? != digest(&from)? {
@@ -58,15 +57,18 @@ impl Folder {
         Ok(taken)
     }
 
-    /// Takes over the failures of jobs without a record.
+    /// Takes over the failures of jobs without a good record.
     fn take_failures(&self, other: &Self, jobs: &[Job], axes: &[Axis]) -> Result<(), FolderError> {
         let failures = read_failures(axes, &other.failures())?;
-        let own = self.recorded()?;
-        let place = |id: &str| jobs.iter().position(|job| job.id == id);
+        let places = jobs.iter().enumerate();
+        let places: HashMap<&str, usize> = places
+            .map(|(place, job)| (job.id.as_str(), place))
+            .collect();
+        let place = |failure: &Failure| places.get(failure.id.as_str()).copied();
         FailureTable::new(axes, self.failures()).tidy(
             &failures,
-            |failure| !own.contains(&failure.id),
-            |failure| place(&failure.id),
+            |failure| place(failure).is_some_and(|it| !self.is_done(&jobs[it])),
+            place,
         )?;
         Ok(())
     }

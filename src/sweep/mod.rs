@@ -49,7 +49,7 @@ pub use select::{SelectError, Selection, parse_point};
 pub use shard::{ForeignShard, Shard};
 pub use status::{Claimed, Status, UnderWay};
 pub use study::StudyRuns;
-pub(crate) use study::{fit_frames, output_of_balance};
+pub(crate) use study::{RunScenes, fit_frames, output_of_balance};
 
 use crate::classify::Sieves;
 use crate::grid::{Axis, Variant, variant_at};

@@ -273,13 +273,14 @@ pub(super) fn standing(job: &Job, path: &Path) -> Standing {
         }
         Err(error) => return Standing::Damaged(error.to_string()),
     };
-    let keys = differing_keys_of_motion(&record.scene, &job.scene);
+    let scene = job.scene();
+    let keys = differing_keys_of_motion(&record.scene, &scene);
     if !keys.is_empty() {
         Standing::Foreign(ForeignRecord {
             path: path.to_owned(),
             keys,
         })
-    } else if record.scene.output != job.scene.output {
+    } else if record.scene.output != scene.output {
         Standing::OtherOutput
     } else {
         Standing::Done(Done {

@@ -75,14 +75,20 @@ impl<'a> Pool<'a> {
     /// cannot be written.
     pub fn run(&self, plan: &Plan) -> Result<Report, PoolError> {
         plan.check()?;
-        self.folder.write_sweep(self.sweep)?;
-        let records = Records::new(self, plan);
+        // Another process may be at the pairs of an ablation already.
+        let extended = self.folder.extension_of(self.sweep);
+        let sweep = extended.as_ref().unwrap_or(self.sweep);
+        self.folder.write_sweep(sweep)?;
+        let records = Records::new(self, plan, sweep);
         // Nothing has failed yet, but what was noted before may be no failure any more.
         records.note_failures(&[]).map_err(FolderError::from)?;
+        let with_checkpoint = self.folder.with_checkpoint()?;
         for (job, _) in plan.done() {
-            // Left by a process that was killed between record and removal. One that cannot be
-            // removed does no harm: the job is done.
-            let _ = records.checkpoints(job).remove();
+            if with_checkpoint.contains(&job.id) {
+                // Left by a process that was killed between record and removal. One that cannot be
+                // removed does no harm: the job is done.
+                let _ = records.checkpoints(job).remove();
+            }
         }
         let report = Batch::new(plan.pending(), &records, self.wishes).run_on(self.backend);
         Ok(Report {
@@ -128,12 +134,7 @@ mod tests {
         let job = |&value: &f64| {
             let mut scene = falling.scene.clone();
             scene.dem.effects.gravity.as_mut().unwrap().acceleration = value;
-            Job {
-                id: scene.identity(),
-                values: vec![value],
-                seed: 1,
-                scene,
-            }
+            Job::alone(scene.identity(), vec![value], scene)
         };
         let jobs = axis.values.iter().map(job).collect();
         let sweep = Sweep {
@@ -145,7 +146,7 @@ mod tests {
     }
 
     fn write_record_of(job: &Job, folder: &Folder) {
-        let record = run::run(&job.scene, &mut |_| ControlFlow::Continue(()));
+        let record = run::run(&job.scene(), &mut |_| ControlFlow::Continue(()));
         store::write_record(&record.unwrap(), &folder.record(&job.id)).unwrap();
     }
 
@@ -160,7 +161,7 @@ mod tests {
         let faulty: Begin<'_> = &|job| match job.values[0] {
             1.0 => panic!("one is too few"),
             3.0 => Err(BuildError::new(dem::DemBuildError::FrictionWithoutContact)),
-            _ => Run::new(&job.scene),
+            _ => Run::new(&job.scene()),
         };
         let plan = Plan::new(&folder, jobs.clone(), 2).unwrap();
         let faulty = Pool {
@@ -202,8 +203,9 @@ mod tests {
         folder.create().unwrap();
         let (sweep, mut jobs) = sweep();
         for (job, duration) in jobs.iter_mut().zip([0.01, 0.03, 0.01, 0.02]) {
-            job.scene.time.duration = duration;
-            job.id = job.scene.identity();
+            let mut scene = job.scene();
+            scene.time.duration = duration;
+            *job = Job::alone(scene.identity(), job.values.clone(), scene);
         }
         let begun = Mutex::new(Vec::new());
         let watch = |event: Event<'_>| {
@@ -311,10 +313,8 @@ mod tests {
         table
             .append(&Failure::new(&jobs[1], "of another process"))
             .unwrap();
-        let stranger = Job {
-            id: "0123456789abcdef".to_owned(),
-            ..jobs[0].clone()
-        };
+        let mut stranger = jobs[0].clone();
+        stranger.id = "0123456789abcdef".to_owned();
         table
             .append(&Failure::new(&stranger, "of an earlier sweep"))
             .unwrap();
@@ -346,7 +346,7 @@ mod tests {
         };
         let faulty: Begin<'_> = &|job| match job.values[0] {
             2.0 | 3.0 => Err(BuildError::new(dem::DemBuildError::FrictionWithoutContact)),
-            _ => Run::new(&job.scene),
+            _ => Run::new(&job.scene()),
         };
         let threads = LocalThreads::new(1).beginning(faulty);
         let pool = Pool {

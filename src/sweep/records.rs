@@ -2,8 +2,9 @@
 
 use super::backend::{Claim, Results};
 use super::failures::FailureTable;
-use super::plan::{Plan, Standing, standing};
+use super::plan::Plan;
 use super::{Failure, Folder, Job, Pool, Sweep};
+use crate::grid::Axis;
 use crate::record::RunRecord;
 use crate::resume::Checkpoints;
 use crate::store::{self, Lease, StoreError};
@@ -13,7 +14,9 @@ use std::time::Duration;
 /// A folder of records.
 pub(super) struct Records<'a> {
     folder: &'a Folder,
-    sweep: &'a Sweep,
+    axes: &'a [Axis],
+    /// Whether the sweep has jobs that are not in the plan.
+    has_other_jobs: bool,
     interval: Duration,
     /// Whether records that are there do not count.
     is_afresh: bool,
@@ -22,33 +25,31 @@ pub(super) struct Records<'a> {
 }
 
 impl<'a> Records<'a> {
-    pub(super) fn new(pool: &Pool<'a>, plan: &'a Plan) -> Self {
+    /// The records of the runs of a sweep, of which the plan may hold a part.
+    pub(super) fn new(pool: &Pool<'a>, plan: &'a Plan, sweep: &'a Sweep) -> Self {
         let jobs = plan.jobs.iter().map(|(job, _)| job).enumerate();
         Self {
             folder: pool.folder,
-            sweep: pool.sweep,
+            axes: &sweep.axes,
+            has_other_jobs: sweep.refine.is_some() || sweep.study.is_some(),
             interval: pool.checkpoint_interval,
             is_afresh: !pool.wishes.resume,
             jobs: jobs.map(|it| (it.1.id.as_str(), it)).collect(),
         }
     }
 
-    fn is_done(&self, job: &Job) -> bool {
-        let standing = standing(job, &self.folder.record(&job.id));
-        matches!(standing, Standing::Done(_))
-    }
-
     /// Whether a failure is still one: of this sweep, and no process has made its record since.
     fn is_failure(&self, failure: &Failure) -> bool {
         match self.jobs.get(failure.id.as_str()) {
-            Some((_, job)) => !self.is_done(job),
-            // The plan of a round does not hold what failed in an earlier one.
-            None => self.sweep.refine.is_some() && !self.folder.record(&failure.id).is_file(),
+            Some((_, job)) => !self.folder.is_done(job),
+            // The plan of a round does not hold what failed in an earlier one, nor that of single
+            // effects what failed with pairs.
+            None => self.has_other_jobs && !self.folder.record(&failure.id).is_file(),
         }
     }
 
     fn failure_table(&self) -> FailureTable<'_> {
-        FailureTable::new(&self.sweep.axes, self.folder.failures())
+        FailureTable::new(self.axes, self.folder.failures())
     }
 }
 
@@ -63,7 +64,7 @@ impl Results for Records<'_> {
         Ok(match lease {
             None => Claim::Elsewhere,
             // Made since it was planned.
-            Some(_) if !self.is_afresh && self.is_done(job) => Claim::Made,
+            Some(_) if !self.is_afresh && self.folder.is_done(job) => Claim::Made,
             lease => Claim::Granted(lease),
         })
     }

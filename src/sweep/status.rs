@@ -14,7 +14,7 @@ use std::time::Duration;
 pub struct Status {
     /// Number of jobs.
     pub jobs: usize,
-    /// Jobs with a good record.
+    /// Jobs with a good record, or with a row of a table that counts without one.
     pub done: usize,
     /// Of these, runs that a guard ended.
     pub unstable: usize,
@@ -93,7 +93,7 @@ pub struct UnderWay {
 impl UnderWay {
     /// All of a plan, from one look at the folder.
     fn all(folder: &Folder, plan: &Plan) -> Result<Vec<Self>, FolderError> {
-        let with_checkpoint = folder.files_of_runs(".checkpoint")?;
+        let with_checkpoint = folder.with_checkpoint()?;
         let jobs = plan.pending();
         let jobs = jobs.filter(|job| with_checkpoint.contains(&job.id));
         Ok(jobs.filter_map(|job| Self::of(folder, job)).collect())
@@ -102,13 +102,14 @@ impl UnderWay {
     /// The checkpoint of a job, if there is one from which this build can go on.
     fn of(folder: &Folder, job: &Job) -> Option<Self> {
         let checkpoints = folder.checkpoints(&job.id, Duration::ZERO);
-        let checkpoint = store::read_checkpoint(checkpoints.path(), &job.scene).ok()??;
+        let scene = job.scene();
+        let checkpoint = store::read_checkpoint(checkpoints.path(), &scene).ok()??;
         Some(Self {
             id: job.id.clone(),
             values: job.values.clone(),
             seed: job.seed,
             frame: run::frame_of_state(checkpoint.state()).ok()?,
-            frames: job.scene.time.frames(),
+            frames: scene.time.frames(),
         })
     }
 }
@@ -134,6 +135,7 @@ impl Status {
         let is_unstable = |done: &&Done| matches!(done.outcome, Outcome::Unstable(_));
         let bad = plan.jobs.iter().filter(is_bad).count();
         let good = plan.done().count();
+        let labelled = plan.labelled().count() - good;
         let unread = plan.jobs.iter();
         let unread = unread.filter(|it| it.1 == Standing::Unread).count();
         let read = good + bad;
@@ -145,7 +147,7 @@ impl Status {
         let claimed = Claimed::all(folder);
         Ok(Self {
             jobs: plan.jobs.len(),
-            done: of_all(good),
+            done: of_all(good) + labelled,
             unstable: of_all(plan.done().map(|it| it.1).filter(is_unstable).count()),
             bad: of_all(bad),
             sample: (unread > 0).then_some(read),

@@ -23,27 +23,40 @@ pub enum StudyRuns {
     },
 }
 
+/// The scenes of the runs of a sweep.
+pub(crate) struct RunScenes {
+    points: PointScenes,
+    study: Option<StudyRuns>,
+}
+
+impl RunScenes {
+    /// The scenes of the runs of this sweep.
+    pub(crate) fn new(sweep: &Sweep) -> Result<Self, PointError> {
+        Ok(Self {
+            points: PointScenes::new(&sweep.scene, &sweep.axes)?,
+            study: sweep.study,
+        })
+    }
+
+    /// The scene that is run at a point.
+    pub(crate) fn at(&self, values: &[f64]) -> Result<Scene, PointError> {
+        match self.study {
+            Some(StudyRuns::Numerics { frames }) => {
+                let scene = balanced(self.points.unchecked(values)?, frames);
+                scene.map_err(|problems| self.points.error(values, problems))
+            }
+            _ => self.points.checked(values),
+        }
+    }
+}
+
 impl Sweep {
     /// The scene of a point, as its run takes it.
     ///
     /// # Errors
     /// What is wrong with it.
     pub fn scene_at(&self, values: &[f64]) -> Result<Scene, PointError> {
-        self.scene_of_run(&mut PointScenes::new(&self.scene, &self.axes)?, values)
-    }
-
-    pub(super) fn scene_of_run(
-        &self,
-        scenes: &mut PointScenes<'_>,
-        values: &[f64],
-    ) -> Result<Scene, PointError> {
-        match self.study {
-            Some(StudyRuns::Numerics { frames }) => {
-                let scene = balanced(scenes.unchecked(values)?, frames);
-                scene.map_err(|problems| PointError::new(&self.axes, values, problems))
-            }
-            _ => scenes.checked(values),
-        }
+        RunScenes::new(self)?.at(values)
     }
 
     /// The identity of the run of a scene at a point.

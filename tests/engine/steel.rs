@@ -57,7 +57,7 @@ fn steel_at_its_true_stiffness_hovers_rests_and_is_pinned() {
         point.axes[0].values = vec![radius];
         point.axes[1].values = vec![omega];
         let job = point.jobs().unwrap().swap_remove(0);
-        let record = run(&job.scene, &mut |_| ControlFlow::Continue(())).unwrap();
+        let record = run(&job.scene(), &mut |_| ControlFlow::Continue(())).unwrap();
         classify(&record, &Sieves::default()).unwrap()
     });
     let verdicts: Vec<_> = verdicts.collect();

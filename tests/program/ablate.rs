@@ -154,6 +154,34 @@ fn processes_share_an_ablation_with_pairs() {
     assert!(names.any(|name| name.contains(" and ")), "{one:#}");
 }
 
+/// Symptom: pairs were never listed, and a line whose task ended the single effects was refused.
+#[test]
+fn pairs_are_handed_out_once_single_effects_are_there() {
+    let place = Workplace::new();
+    let air = "[drag]\nlaw = \"cross-section\"\nlinear = 30.0\n[swirl]\nomega = 20.0\n[tank]";
+    place.write("scene.toml", &SCENE.replace("[tank]", air));
+    let study = "study = \"ablation\"\nscene = \"scene.toml\"\nseeds.count = 8\n";
+    place.write("study.toml", study);
+    let mut answers = Vec::new();
+    loop {
+        let list = ["jobs", "study.toml", "--missing", "--chunk", "1h"];
+        let lines = place.phase(&list).code(0).stdout;
+        let Some(line) = lines.lines().next() else {
+            break;
+        };
+        let answer = place.phase(&["study", "study.toml", "--no-plot", "--job", line]);
+        answers.push(answer.code(0).stdout.clone());
+    }
+    assert_eq!(answers.len(), 2, "{answers:?}");
+    assert!(answers[0].contains("pairs of effects follow"));
+    let found = place.read("results/ablation/study/ablation.json");
+    assert!(found.contains(" and "));
+    place
+        .phase(&["study", "study.toml", "--no-plot"])
+        .code(0)
+        .says(": 0 made now");
+}
+
 #[test]
 fn a_scene_without_effects_and_a_single_seed_are_refused() {
     let place = Workplace::new();

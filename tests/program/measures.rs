@@ -1,4 +1,4 @@
-//! Numbers that a redesign brought down and that stay there: lines of rooms, commands, and what it
+//! Ceilings that a change may not break without a reason: lines of rooms, commands, and what it
 //! takes to extend the program.
 
 use std::fs;

@@ -280,7 +280,7 @@ fn a_pool_runs_it_with_the_bits_of_single_runs() {
     let sweep = phase::sweep::from_str(text, &place.path().join("sweep.toml")).unwrap();
     let folder = Folder::new(place.path());
     folder.create().unwrap();
-    let threads = LocalThreads::new(2).beginning(&|job| begin(&job.scene));
+    let threads = LocalThreads::new(2).beginning(&|job| begin(&job.scene()));
     let pool = Pool::new(&folder, &sweep, &threads);
     let plan = Plan::new(&folder, sweep.jobs().unwrap(), 2).unwrap();
     let report = pool.run(&plan).unwrap();
@@ -288,7 +288,7 @@ fn a_pool_runs_it_with_the_bits_of_single_runs() {
     for (job, _) in &plan.jobs {
         let stored = read_record(&folder.record(&job.id)).unwrap();
         let digest = |record| content_digest(record).unwrap();
-        assert_eq!(digest(&stored), digest(&whole(&job.scene)));
+        assert_eq!(digest(&stored), digest(&whole(&job.scene())));
     }
 }
 

@@ -156,14 +156,17 @@ fn every_job_of_the_sweeps_off_the_main_road_is_stable() {
     for name in ["steel", "density-friction"] {
         for job in load_sweep(format!("sweeps/{name}.toml")).jobs().unwrap() {
             let problems: Vec<String> = job
-                .scene
+                .scene()
                 .problems()
                 .iter()
                 .map(std::string::ToString::to_string)
                 .collect();
             assert_eq!(problems, Vec::<String>::new(), "{name}: {:?}", job.values);
-            let limit = phase::dem::timestep::largest_stable(&job.scene).unwrap();
-            assert!(job.scene.time.dt < 0.8 * limit.seconds, "{name}: {limit:?}");
+            let limit = phase::dem::timestep::largest_stable(&job.scene()).unwrap();
+            assert!(
+                job.scene().time.dt < 0.8 * limit.seconds,
+                "{name}: {limit:?}"
+            );
         }
     }
 }
@@ -172,12 +175,12 @@ fn every_job_of_the_sweeps_off_the_main_road_is_stable() {
 fn the_two_fillings_are_dealt_exactly() {
     let sweep = load_sweep("sweeps/silo-fillings.toml");
     for job in sweep.jobs().unwrap() {
-        let grains = phase::start::place(&job.scene).unwrap();
+        let grains = phase::start::place(&job.scene()).unwrap();
         let small = grains.radius.iter().filter(|radius| **radius == 0.03);
         assert_eq!(small.count(), if job.values[0] == 0.0 { 0 } else { 500 });
         assert_eq!(grains.radius.len(), 1000);
         // A radius that does not occur sets no limit.
-        assert_eq!(job.scene.radius_range().0 == 0.04, job.values[0] == 0.0);
+        assert_eq!(job.scene().radius_range().0 == 0.04, job.values[0] == 0.0);
     }
 }
 
@@ -222,14 +225,14 @@ fn the_first_axis_varies_slowest_and_seeds_fastest() {
     );
     assert_eq!(jobs[2].values, [0.005, 0.0, 1000.0, 0.1]);
     assert_eq!(jobs[107].values, [0.003, 20.0, 3000.0, 1.0]);
-    let scene = &jobs[2].scene;
+    let scene = &jobs[2].scene();
     assert_eq!(scene.spheres.radius, Radii::One(0.005));
     assert_eq!(scene.spheres.density, 1000.0);
     assert_eq!(scene.dem.effects.updraught.as_ref().unwrap().alpha, 0.1);
-    assert_eq!((scene.seed, jobs[3].scene.seed), (3, 4));
+    assert_eq!((scene.seed, jobs[3].scene().seed), (3, 4));
     let ids: std::collections::HashSet<&str> = jobs.iter().map(|job| job.id.as_str()).collect();
     assert_eq!(ids.len(), jobs.len());
-    assert_eq!(jobs[5].id, jobs[5].scene.identity());
+    assert_eq!(jobs[5].id, jobs[5].scene().identity());
 }
 
 #[test]
@@ -283,7 +286,7 @@ fn whole_number_keys_can_be_varied() {
     let text = "scene = 'tank.toml'\n[[axis]]\nkey = 'count'\nvalues = [5, 10.0]";
     let sweep = sweep::from_str(text, Path::new("tests/good/sweep.toml")).unwrap();
     let jobs = sweep.jobs().unwrap();
-    assert_eq!([0, 1].map(|job| jobs[job].scene.spheres.count), [5, 10]);
+    assert_eq!([0, 1].map(|job| jobs[job].scene().spheres.count), [5, 10]);
 }
 
 /// The identity of the first job of a sweep, without making all the others of a grid.

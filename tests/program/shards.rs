@@ -160,7 +160,7 @@ fn jobs_are_handed_out_as_lines() {
 fn the_jobs_of_a_refined_sweep_are_those_of_its_round() {
     let place = Workplace::new();
     place.write("tiny.toml", &refined());
-    let mut rounds = 0;
+    let (mut rounds, mut last) = (0, String::new());
     loop {
         let answer = place
             .phase(&["jobs", "tiny.toml", "--missing", "--chunk", "1h"])
@@ -169,9 +169,15 @@ fn the_jobs_of_a_refined_sweep_are_those_of_its_round() {
             break;
         };
         place.phase(&["sweep", "tiny.toml", "--job", line]).code(0);
+        last = line.to_owned();
         rounds += 1;
     }
     assert!(rounds > 1);
+    // Symptom: once all rounds were done any line was taken.
+    place
+        .phase(&["sweep", "tiny.toml", "--job", &last])
+        .code(2)
+        .complains("of an earlier round");
     place
         .phase(&["status", "results/tiny"])
         .code(0)

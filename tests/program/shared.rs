@@ -77,6 +77,8 @@ fn a_folder_at_work_is_not_changed() {
         &["sweep", "other.toml", "--out", "shared"][..],
         &["sweep", "tiny.toml", "--out", "shared", "--force"],
         &["classify", "shared", "--sweep", "tiny.toml"],
+        // Symptom: labels of a sweep that had ended meanwhile were replaced by fewer.
+        &["classify", "shared"],
     ] {
         place
             .phase(arguments)
@@ -97,6 +99,28 @@ fn a_folder_at_work_is_not_changed() {
 
 fn leases_there(place: &Workplace) -> bool {
     place.path("shared/records").exists() && leases(place) > 0
+}
+
+/// Symptom: two studies of one name replaced each other's tables and figures. Cause: only sweeps
+/// were compared with the file that the folder was made from.
+#[test]
+fn studies_of_one_name_do_not_share_a_folder() {
+    let place = Workplace::new();
+    let [(text, _), _] = crate::studies::studies();
+    for (folder, text) in [
+        ("one", &text),
+        ("other", &text.replace("count = 8", "count = 4")),
+    ] {
+        fs::create_dir(place.path(folder)).unwrap();
+        place.write(&format!("{folder}/fall.toml"), text);
+    }
+    place
+        .phase(&["study", "one/fall.toml", "--no-plot"])
+        .code(0);
+    place
+        .phase(&["study", "other/fall.toml", "--no-plot"])
+        .code(2)
+        .complains("one/fall.toml, another study of the same name");
 }
 
 /// Symptom: two sweep files of one name in two folders shared their results without a word. Cause:

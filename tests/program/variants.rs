@@ -29,7 +29,7 @@ fn variants_are_an_axis_that_varies_fastest() {
         let own = jobs
             .iter()
             .filter(move |job| job.values.last() == Some(&place));
-        own.map(|job| (&job.id, &job.scene))
+        own.map(|job| (&job.id, job.scene()))
     };
     // The scene says the same, so that the runs are the same.
     let ids = plain_jobs.iter().map(|job| &job.id);
@@ -290,7 +290,7 @@ fn a_table_that_is_set_replaces_the_whole_table() {
         let variant = format!("[[variant]]\nname = \"it\"\nset = {{ {set} }}\n");
         let text = TinySweep::default().text() + &variant;
         let sweep = sweep::from_str(&text, &place.path("sweep.toml")).unwrap();
-        let tank = sweep.jobs().unwrap()[0].scene.tank.clone().unwrap();
+        let tank = sweep.jobs().unwrap()[0].scene().tank.clone().unwrap();
         assert_eq!(
             (tank.radius, tank.floor.is_some()),
             (Some(0.04), is_there),

@@ -99,7 +99,7 @@ fn try_jobs(
     console: &Console,
 ) -> Result<Forecast, Failure> {
     // A silo ends its run when it is empty.
-    let may_end = jobs.iter().any(|job| job.scene.has_flow());
+    let may_end = jobs.iter().any(|job| job.scene().has_flow());
     start_of_trial(console);
     let forecast = cost::forecast(jobs, workers, TRIAL_TIME)?;
     print_forecast(&forecast, jobs, workers, may_end, console);

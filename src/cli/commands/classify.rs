@@ -76,6 +76,8 @@ fn label_folders(
     }
     folders::go_through(dir, found, console, |folder| {
         let sweep = sweep_with_records(folder)?;
+        let wait = |holder: &_| folders::tell_of_waiting(folder, holder, console);
+        let _access = folder.lock(&wait)?;
         let jobs = jobs_to_label(folder, &sweep)?;
         let labelled = label_folder(folder, &sweep, &jobs, workers, console)?;
         Ok(Summary::new(folder, &labelled))

@@ -45,7 +45,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     print_parts(&cost, unit, console);
     let about = match cost.tried.iter().all(|tried| tried.cost.whole) && jobs.len() == 1 {
         true => "the run took",
-        false if jobs.iter().any(|job| job.scene.has_flow()) => "the whole takes at most about",
+        false if jobs.iter().any(|job| job.scene().has_flow()) => "the whole takes at most about",
         false => "the whole takes about",
     };
     console.result(format_args!(

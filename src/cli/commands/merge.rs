@@ -56,14 +56,14 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         answer.taken += taken.new;
         answer.problems.extend(taken.left);
     }
-    if sweep.study.is_some() {
-        console.result("`phase study` with the same file writes tables and figures");
-        return Ok(answer.end(console));
-    }
     // Which jobs a refined sweep has, it chooses itself when it is run again.
     let jobs = sweep.jobs_so_far(into.read_refining(&sweep)?.as_ref())?;
     let plan = Plan::new(&into, jobs, workers)?;
     answer.left = plan.pending().count();
+    if sweep.study.is_some() {
+        console.result("`phase study` with the same file writes tables and figures");
+        return Ok(answer.end(console));
+    }
     let jobs: Vec<Job> = plan.jobs.into_iter().map(|(job, _)| job).collect();
     let labelled = labels::label_folder(&into, &sweep, &jobs, workers, console)?;
     answer.problems.extend(labelled.problems.iter().cloned());

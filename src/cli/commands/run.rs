@@ -195,7 +195,7 @@ impl AskedRun {
                 let point = arguments.point.as_deref().unwrap_or_default();
                 let original = Original::find(folder, point, console)?;
                 Ok(Self {
-                    scene: original.job.scene.clone(),
+                    scene: original.job.scene(),
                     record: original.default_path(),
                     original: Some(original),
                 })

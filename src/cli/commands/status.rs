@@ -9,6 +9,7 @@ use crate::cli::{format, refined};
 use phase::grid::{Axis, describe};
 use phase::refine::Finish;
 use phase::store::{Holder, ProcessIdentity};
+use phase::study::comparison::RunTable;
 use phase::sweep::{Claimed, Folder, Plan, Refining, Status, Sweep, UnderWay, work};
 use serde::Serialize;
 use serde_json::Value;
@@ -50,6 +51,13 @@ impl FolderAnswer {
         let refining = folder.read_refining(&sweep)?;
         let jobs = sweep.jobs_so_far(refining.as_ref())?;
         let plan = Plan::sampled(folder, jobs, MOST_RECORDS, work::default_workers())?;
+        let plan = match sweep.study {
+            Some(_) => {
+                let known = RunTable::identities(folder);
+                plan.with_labels(|job| known.contains(&job.id))
+            }
+            None => plan,
+        };
         let status = Status::of(folder, &sweep.axes, &plan)?;
         console.result(format_args!(
             "{}: {}",

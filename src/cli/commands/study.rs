@@ -148,15 +148,31 @@ impl Arguments {
             console,
         )?;
         study.note_skipped(console);
-        let table = match self.force {
+        let mut table = match self.force {
             true => RunTable::new(study.comparison()),
             false => known_rows(&study, &place)?,
         };
-        let (mut table, mut tally) = place.make(study.comparison(), self, table, console)?;
-        if tally.is_whole()
-            && !self.no_pairs
-            && let Some(more) = study.extended(&table.rows)?
+        if let Some(line) = &self.job
+            && line.of(&study.comparison().jobs).is_err()
         {
+            // Pairs are listed once all runs of single effects are there.
+            table.add_records(study.comparison(), &place.folder, self.workers.count())?;
+            if let Some(more) = study.extended(&table.rows)? {
+                table = known_rows(&more, &place)?;
+                study = more;
+            }
+        }
+        let (mut table, mut tally) = place.make(study.comparison(), self, table, console)?;
+        let more = match tally.is_whole() && !self.no_pairs {
+            true => study.extended(&table.rows)?,
+            false => None,
+        };
+        if more.is_some() && self.job.is_some() {
+            tally.print(console);
+            console.result("pairs of effects follow: list the jobs again");
+            return Ok(answer(tally, None, console));
+        }
+        if let Some(more) = more {
             let known = known_rows(&more, &place)?;
             let (all, of_all) = place.make(more.comparison(), self, known, console)?;
             (study, table, tally) = (more, all, tally.and(of_all));

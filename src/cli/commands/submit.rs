@@ -225,6 +225,22 @@ impl<'a> Handover<'a> {
         })
     }
 
+    /// The command of a shell that runs the file, with so many cores.
+    fn run(&self) -> String {
+        let Self {
+            program,
+            command,
+            file,
+            out,
+            arguments,
+            ..
+        } = self;
+        format!(
+            "{program} {command} {file} --out {out} --jobs {}",
+            arguments.jobs
+        )
+    }
+
     /// Number of tasks of the whole sweep, of which there may be so many.
     fn tasks(&self, most: usize) -> usize {
         let of_a_task = self.arguments.time.as_secs_f64() / 2.0 * self.arguments.jobs as f64;
@@ -264,12 +280,12 @@ impl<'a> Handover<'a> {
     fn write_next(&self, head: &str, system: &str) -> Result<[PathBuf; 2], Failure> {
         let Self {
             program,
-            command,
             file,
             out,
             here,
             ..
         } = self;
+        let run = self.run();
         let (todo, left) = (self.path("todo")?, self.path("left")?);
         let lines = self.next.shards(&self.next.missing, 0.0, Duration::ZERO);
         let lines: String = lines.iter().map(|line| format!("{line}\n")).collect();
@@ -288,7 +304,7 @@ impl<'a> Handover<'a> {
              cd {here} || exit\n\
              {program} jobs {file} --out {out} --missing > {left} || exit\n\
              if [ ! -s {left} ]; then\n    \
-                 exec {program} {command} {file} --out {out} --jobs {jobs}\n\
+                 exec {run}\n\
              elif cmp -s {left} {todo}; then\n    \
                  echo \"the tasks made no run; see their output and failed.csv\" >&2\n    \
                  exit 1\n\

@@ -6,7 +6,7 @@ use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::job::NamedJob;
 use crate::cli::options::Workers;
-use crate::cli::rounds::{Rounds, Run};
+use crate::cli::runner::{Runner, RunsMade};
 use crate::cli::values;
 use crate::cli::{figures, labels};
 use crate::cli::{folders, format, interrupt, overlaps, refined, time_step};
@@ -14,7 +14,7 @@ use phase::classify::Family;
 use phase::resume::DEFAULT_INTERVAL;
 use phase::store::{self, Holder, Lease};
 use phase::sweep::{
-    Access, Folder, Job, Plan, Shard, Sweep, differing_keys, refuse_to_lose_labels,
+    Access, Folder, Job, NextJobs, Plan, Shard, Sweep, differing_keys, refuse_to_lose_labels,
 };
 use serde::Serialize;
 use std::collections::HashSet;
@@ -86,15 +86,19 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     if !arguments.no_classify {
         sweep.check_sieves(&jobs).map_err(labels::cannot_label)?;
     }
-    if let (Some(job), None) = (&arguments.job, &sweep.refine) {
-        // Before anything is changed.
-        job.of(&jobs)?;
-    }
     let folder = folder_of(&sweep, arguments)?;
+    if let Some(line) = &arguments.job {
+        // Before anything is changed.
+        let next = match sweep.refine {
+            None => None,
+            Some(_) => Some(NextJobs::new(&folder, &sweep, workers)?),
+        };
+        line.of(next.as_ref().map_or(&jobs, |it| &it.jobs))?;
+    }
     let stop = interrupt::stop_on_signal(console)?;
 
     let _access = open(&folder, &sweep, &jobs, arguments, console)?;
-    let rounds = Rounds {
+    let runner = Runner {
         folder: &folder,
         workers,
         stop,
@@ -105,12 +109,12 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     };
     let (plan, run, refinement) = match sweep.refine {
         None => {
-            let plan = rounds.plan(jobs)?;
-            let run = rounds.run(&sweep, &plan)?;
+            let plan = runner.plan(jobs)?;
+            let run = runner.run(&sweep, &plan)?;
             (plan, run, None)
         }
         Some(_) => {
-            let (plan, run, refinement) = refining::refine(&rounds, &sweep, !arguments.no_plot)?;
+            let (plan, run, refinement) = refining::refine(&runner, &sweep, !arguments.no_plot)?;
             (plan, run, Some(refinement))
         }
     };
@@ -158,7 +162,9 @@ fn open(
 ) -> Result<Access, Failure> {
     folder.create()?;
     let access = enter(folder, sweep, arguments, console)?;
-    refuse_another_file(folder, sweep, arguments)?;
+    if arguments.out.is_none() {
+        folders::refuse_another_file(folder, sweep, &arguments.file)?;
+    }
     if !arguments.no_classify {
         let again = jobs_made_again(folder, sweep);
         let kept = jobs.iter().chain(&again).map(|job| job.id.as_str());
@@ -207,29 +213,6 @@ fn folder_of(sweep: &Sweep, arguments: &Arguments) -> Result<Folder, Failure> {
     }
     refuse_foreign(&folder, sweep, arguments)?;
     Ok(folder)
-}
-
-/// Refuses the folder that the name of the file gives if another file of that name has other runs
-/// there.
-fn refuse_another_file(
-    folder: &Folder,
-    sweep: &Sweep,
-    arguments: &Arguments,
-) -> Result<(), Failure> {
-    let (Some(source), Ok(stored)) = (folder.source(), folder.read_sweep()) else {
-        return Ok(());
-    };
-    let is_same = arguments.file.canonicalize().is_ok_and(|it| it == source);
-    let is_namesake = !is_same && arguments.file.file_name() == source.file_name();
-    if arguments.out.is_some() || !is_namesake || stored.keys_of_other_runs(sweep).is_empty() {
-        return Ok(());
-    }
-    Err(Failure::refused(format_args!(
-        "this folder holds the results of {}, another sweep of the same name; choose another \
-         folder with --out",
-        source.display()
-    ))
-    .at(folder.root()))
 }
 
 /// Says which files of the folder belong to an earlier sweep.
@@ -410,7 +393,7 @@ struct Answer {
 }
 
 impl Answer {
-    fn new(folder: &Folder, plan: &Plan, sweep: &Sweep, run: &Run) -> Self {
+    fn new(folder: &Folder, plan: &Plan, sweep: &Sweep, run: &RunsMade) -> Self {
         Self {
             folder: folder.root().to_owned(),
             jobs: plan.own(),

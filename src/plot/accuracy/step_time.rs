@@ -9,7 +9,7 @@ use crate::plot::style::px;
 use crate::plot::svg::Svg;
 use crate::record::Program;
 use crate::scene::leaf;
-use crate::study::comparison::{Comparison, RunRow, Setting};
+use crate::study::comparison::{BASE, Comparison, RunRow, Setting};
 
 /// A line of the figure.
 struct Times {
@@ -28,7 +28,7 @@ pub(super) fn draw(
     rows: &[Option<RunRow>],
     program: &Program,
 ) -> Result<Svg, PlotError> {
-    let sweep = comparison.sweep_of(comparison.as_it_is);
+    let sweep = comparison.sweep_of(BASE);
     let axis = sweep.axes.iter().position(|axis| axis.name == x);
     let (key, times) = match axis {
         Some(axis) => (
@@ -127,7 +127,7 @@ fn against_ladder(
     });
     let mut rungs: Vec<_> = rungs.collect();
     rungs.sort_by(|(_, one, _), (_, other, _)| one.total_cmp(other));
-    let sweep = comparison.sweep_of(comparison.as_it_is);
+    let sweep = comparison.sweep_of(BASE);
     let line = |(point, values): (usize, Vec<f64>)| Times {
         name: describe_point(&sweep.axes, &values),
         points: rungs

@@ -12,7 +12,7 @@ use crate::plot::svg::Svg;
 use crate::plot::{PlotError, palette};
 use crate::record::Program;
 use crate::study::accuracy::{AccuracyStudy, Errors, Evaluation, Order, Outcome};
-use crate::study::comparison::Interval;
+use crate::study::comparison::{BASE, Interval};
 use plotters::element::{Circle, ErrorBar, PathElement, Rectangle};
 use plotters::style::{BLACK, Color, RGBColor};
 
@@ -129,7 +129,7 @@ fn dots(evaluation: &Evaluation) -> Vec<Dot<'_>> {
                 outcome,
                 at: (seconds, error),
                 ends,
-                is_base: place == evaluation.as_it_is,
+                is_base: place == BASE,
             }
         })
         .collect()
@@ -177,7 +177,7 @@ fn spans(
 }
 
 fn error_label(evaluation: &Evaluation) -> String {
-    match &evaluation.outcomes[evaluation.as_it_is].errors {
+    match &evaluation.outcomes[BASE].errors {
         Errors::States(_) => "chance that labels disagree with the reference".to_owned(),
         Errors::Motion(_) => {
             let at = evaluation

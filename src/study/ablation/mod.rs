@@ -232,11 +232,14 @@ impl Ablation {
     }
 
     /// The same with each pair of those that matter: both at once. The sentence of its finding
-    /// stays that about single effects. None if there is no pair.
+    /// stays that about single effects. None if there is no pair, or these are here already.
     ///
     /// # Errors
     /// If a pair cannot be run at a point.
     pub fn with_pairs(&self, rows: &[Option<RunRow>]) -> Result<Option<Self>, AblationError> {
+        if self.of_singles.is_some() {
+            return Ok(None);
+        }
         let ablated = self.evaluate(rows);
         let of_singles = Some(self.finding(&ablated));
         let mut matter: Vec<&Ablated> = ablated

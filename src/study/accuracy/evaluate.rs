@@ -108,8 +108,6 @@ pub struct Evaluation {
     pub outcomes: Vec<Outcome>,
     /// Place of the setting that others are compared with; none for a case.
     pub reference: Option<usize>,
-    /// Place of the scene as it is.
-    pub as_it_is: usize,
     /// Times at which motions are compared (s).
     pub times: Vec<f64>,
     /// Place of the time whose errors count: the last before the motion is chaotic.
@@ -169,13 +167,7 @@ impl AccuracyStudy {
                 (Vec::new(), majorities(&reference))
             }
         };
-        self.conclude(
-            outcomes,
-            Some(comparison.reference),
-            comparison.as_it_is,
-            times,
-            majorities,
-        )
+        self.conclude(outcomes, Some(comparison.reference), times, majorities)
     }
 
     /// Simulates the settings of a case and says what follows; none if it was stopped.
@@ -198,7 +190,6 @@ impl AccuracyStudy {
         Ok(Some(self.conclude(
             outcomes.collect(),
             None,
-            0,
             Vec::new(),
             Vec::new(),
         )))
@@ -208,7 +199,6 @@ impl AccuracyStudy {
         &self,
         outcomes: Vec<Outcome>,
         reference: Option<usize>,
-        as_it_is: usize,
         times: Vec<f64>,
         majorities: Vec<Majority>,
     ) -> Evaluation {
@@ -232,7 +222,6 @@ impl AccuracyStudy {
             orders: orders(&outcomes, reference, counted_time),
             outcomes,
             reference,
-            as_it_is,
             chaotic_from: chaotic.map(|time| times[time]),
             times,
             counted_time,

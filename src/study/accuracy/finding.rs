@@ -1,7 +1,7 @@
 //! The one sentence of a study: the cheapest setting that is good enough, and what it saves.
 
 use super::evaluate::{Errors, Evaluation, Outcome};
-use crate::study::comparison::States;
+use crate::study::comparison::{BASE, States};
 use serde::Serialize;
 
 /// What a study finds.
@@ -23,7 +23,7 @@ const SAME_COST: f64 = 1.03;
 
 impl Finding {
     pub(super) fn of(evaluation: &Evaluation) -> Self {
-        let base = &evaluation.outcomes[evaluation.as_it_is];
+        let base = &evaluation.outcomes[BASE];
         if evaluation.counted_time.is_none() && !evaluation.times.is_empty() {
             let sentence = format!(
                 "The motion is chaotic before {} s: no setting is near the reference there. \
@@ -105,7 +105,7 @@ fn sentence(
 ) -> String {
     let wanted = wanted(evaluation);
     let how_wrong = how_wrong(evaluation, cheapest);
-    let base = &evaluation.outcomes[evaluation.as_it_is];
+    let base = &evaluation.outcomes[BASE];
     if cheapest.name == base.name {
         return format!("The cheapest setting {wanted} is the scene as it is: {how_wrong}.");
     }
@@ -134,7 +134,7 @@ fn sentence(
 /// What is asked for.
 fn wanted(evaluation: &Evaluation) -> String {
     let tolerance = &evaluation.tolerance;
-    match &evaluation.outcomes[evaluation.as_it_is].errors {
+    match &evaluation.outcomes[BASE].errors {
         Errors::States(_) => {
             let labels = format!(
                 "that changes at most {} of the labels",
@@ -339,7 +339,6 @@ mod tests {
         Evaluation {
             outcomes,
             reference,
-            as_it_is: 0,
             times: time.into_iter().collect(),
             counted_time: time.map(|_| 0),
             chaotic_from: None,

@@ -188,8 +188,7 @@ impl Base {
         if let Err(error) = sweep.sieves.check(after) {
             return refuse(Problem::new("", error.to_string()));
         }
-        let mut scenes =
-            PointScenes::new(&sweep.scene, &sweep.axes).map_err(|error| error.problems)?;
+        let scenes = PointScenes::new(&sweep.scene, &sweep.axes).map_err(|error| error.problems)?;
         for values in sweep.grid() {
             scenes.checked(&values).map_err(|error| {
                 let at = error.point;

@@ -46,8 +46,11 @@ pub struct Setting {
     pub note: Option<String>,
 }
 
+/// Place of the scene as it is among the settings: savings are counted from it.
+pub const BASE: usize = 0;
+
 /// Settings that are compared with one of them, and the runs that this takes.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Comparison {
     /// What is run: the settings are the variants of its last axis.
     pub sweep: Sweep,
@@ -55,8 +58,6 @@ pub struct Comparison {
     pub settings: Vec<Setting>,
     /// Place of the one that the others are compared with.
     pub reference: usize,
-    /// Place of the scene as it is, which savings are counted from.
-    pub as_it_is: usize,
     /// What is measured of each run.
     pub measurement: Measurement,
     /// All runs, each once: settings vary slowest, then points, then seeds.
@@ -91,7 +92,6 @@ impl Comparison {
             runs: vec![Vec::new(); settings.len()],
             settings,
             reference,
-            as_it_is: 0,
             measurement,
             jobs: Vec::new(),
             sweep,
@@ -113,8 +113,8 @@ impl Comparison {
         }
         let runs = &self.runs;
         for (place, setting) in self.settings.iter_mut().enumerate() {
-            let is_new = place != self.as_it_is && !setting.change.is_empty();
-            if is_new && runs[place] == runs[self.as_it_is] && setting.note.is_none() {
+            let is_new = place != BASE && !setting.change.is_empty();
+            if is_new && runs[place] == runs[BASE] && setting.note.is_none() {
                 setting.note = Some("its runs are those of the scene as it is".to_owned());
             }
         }

@@ -129,6 +129,18 @@ impl RunTable {
         Ok(table)
     }
 
+    /// Identities of the runs that the table of a folder has a row of. Without a table, or with one
+    /// that cannot be read, there are none.
+    pub fn identities(folder: &Folder) -> HashSet<String> {
+        let content = text::read(&folder.runs()).unwrap_or_default();
+        let mut file = csv::ReaderBuilder::new();
+        let mut file = file.flexible(true).from_reader(content.as_bytes());
+        // Its last column, as `columns` lists them.
+        let ids = file.records().flatten();
+        ids.filter_map(|line| Some(line.iter().next_back()?.to_owned()))
+            .collect()
+    }
+
     /// The plan of a folder in which jobs that have a row are done.
     #[must_use]
     pub fn applied_to(&self, plan: Plan) -> Plan {

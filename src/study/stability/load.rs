@@ -4,14 +4,14 @@ use super::StabilityStudy;
 use crate::classify::{ENERGY_GAIN, NUMERICS};
 use crate::document::{Document, LoadError, Problem, Schema, unit};
 use crate::grid::{
-    Axis, AxisEntry, Variant, base_scene, check_axes, check_jobs, check_points, check_steps,
-    expand_axes, or_path,
+    Axis, AxisEntry, PointError, Variant, base_scene, check_axes, check_jobs, check_points,
+    check_steps, expand_axes, or_path,
 };
 use crate::run::Reading;
 use crate::scene::{Change, FileKind, Integrator, Scene, settings};
 use crate::study::StudyName;
 use crate::study::comparison::{Comparison, Measurement, Setting};
-use crate::sweep::{StudyRuns, Sweep, fit_frames, output_of_balance};
+use crate::sweep::{RunScenes, StudyRuns, Sweep, fit_frames, output_of_balance};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::Value;
@@ -141,7 +141,6 @@ pub(crate) fn of_document(document: &Document) -> Result<StabilityStudy, LoadErr
     Ok(StabilityStudy {
         comparison: comparison
             .map_err(|error| document.refuse(&[Problem::new("", error.to_string())]))?,
-        frames: file.frames,
     })
 }
 
@@ -176,9 +175,17 @@ fn check_runs(
             scene: variant.scene.clone(),
             ..sweep.clone()
         };
-        let errors = own.grid().filter_map(|values| own.scene_at(&values).err());
+        let errors: Vec<PointError> = match RunScenes::new(&own) {
+            Ok(scenes) => own.grid().filter_map(|it| scenes.at(&it).err()).collect(),
+            Err(error) => vec![error],
+        };
         // What is wrong does not depend on the integrator, but for a step that is chosen.
-        check_points(errors, &sweep.axes, document.tree(), &mut problems);
+        check_points(
+            errors.into_iter(),
+            &sweep.axes,
+            document.tree(),
+            &mut problems,
+        );
         document.accept(&problems)?;
     }
     Ok(())

@@ -18,6 +18,4 @@ use crate::study::comparison::Comparison;
 pub struct StabilityStudy {
     /// The integrators, as settings over two axes, the horizontal one first.
     pub comparison: Comparison,
-    /// Frames of a run, at which energies are looked at.
-    pub frames: u64,
 }

@@ -55,7 +55,7 @@ fn sweep() -> Sweep {
 }
 
 fn record(job: &Job) -> RunRecord {
-    run::run(&job.scene, &mut |_| ControlFlow::Continue(())).unwrap()
+    run::run(&job.scene(), &mut |_| ControlFlow::Continue(())).unwrap()
 }
 
 /// What became of four jobs one after the other on a backend.
@@ -143,9 +143,9 @@ fn a_job_is_handed_in_once() {
 /// Symptom: the record of one job was stored under the name of another.
 #[test]
 fn the_record_of_another_job_is_refused() {
-    let mut other = sweep().jobs().unwrap().remove(0);
-    other.scene.seed = 7;
-    other.id = other.scene.identity();
+    let mut scene = sweep().jobs().unwrap()[0].scene();
+    scene.seed = 7;
+    let other = Job::alone(scene.identity(), Vec::new(), scene);
     let backend = Each(|batch: &Batch<'_>, job: &Job| {
         assert!(matches!(batch.claim(&other), Claim::Refused));
         let made = if job.seed == 3 { &other } else { job };

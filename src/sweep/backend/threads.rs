@@ -23,7 +23,7 @@ impl LocalThreads<'_> {
     pub fn new(count: usize) -> Self {
         Self {
             count,
-            begin: &|job| Run::new(&job.scene),
+            begin: &|job| Run::new(&job.scene()),
         }
     }
 }

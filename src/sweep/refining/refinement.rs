@@ -9,7 +9,6 @@ use crate::refine::{
 };
 use crate::refusal::Refusal;
 use crate::sweep::{Folder, Job, Labelling, Plan, PlanError, Sweep};
-use std::collections::HashSet;
 
 /// The rounds of a refined sweep.
 ///
@@ -36,7 +35,7 @@ struct Known {
 }
 
 /// What is done next.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub enum Step {
     /// These jobs of the round are run.
     Run(Vec<Job>),
@@ -340,15 +339,9 @@ fn goes_on(folder: &Folder, sweep: &Sweep) -> Option<Refining> {
 
 /// The jobs of all points and seeds of a refined sweep that have a record or a kept label.
 fn jobs_with_records(folder: &Folder, sweep: &Sweep) -> Result<Vec<Job>, PointError> {
-    let entries = std::fs::read_dir(folder.records()).into_iter().flatten();
-    let id = |entry: std::io::Result<std::fs::DirEntry>| {
-        let name = entry.ok()?.file_name().into_string().ok()?;
-        Some(name.strip_suffix(".h5")?.to_owned())
-    };
-    let ids = entries
-        .filter_map(id)
-        .chain(folder.kept_labels().into_keys());
-    let ids: HashSet<String> = ids.collect();
+    // A folder that cannot be read is refused where its records are looked at.
+    let mut ids = folder.recorded().unwrap_or_default();
+    ids.extend(folder.kept_labels().into_keys());
     if ids.is_empty() {
         return Ok(Vec::new());
     }

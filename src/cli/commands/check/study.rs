@@ -139,8 +139,8 @@ impl<'a> SettingAnswer<'a> {
         let of = |(place, setting): (usize, &'a Setting)| {
             let own = comparison.jobs_of(place);
             let ratios = own.clone().filter_map(|job| {
-                let limit = largest_stable(&job.scene)?;
-                Some(job.scene.time.dt / limit.seconds)
+                let scene = job.scene();
+                Some(scene.time.dt / largest_stable(&scene)?.seconds)
             });
             Self {
                 name: &setting.name,

@@ -17,9 +17,10 @@ pub(super) struct Walls<'a> {
 /// The wall of all jobs that comes closest to being passed.
 pub(super) fn weakest(jobs: &[Job]) -> Option<Walls<'_>> {
     let walls = jobs.iter().filter_map(|job| {
+        let scene = job.scene();
         Some(Walls {
-            wall: WeakestWall::of_scene(&job.scene)?,
-            impact: timestep::fastest_impact(&job.scene),
+            wall: WeakestWall::of_scene(&scene)?,
+            impact: timestep::fastest_impact(&scene),
             job,
         })
     });

@@ -4,7 +4,7 @@ use super::Arguments;
 use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::folders::ANOTHER_FOLDER;
-use crate::cli::rounds::Rounds;
+use crate::cli::runner::Runner;
 use crate::cli::{builds, folders, forecast, format, interrupt};
 use phase::resume::DEFAULT_INTERVAL;
 use phase::study::StudyName;
@@ -55,10 +55,18 @@ impl Place {
         }
         let wait = |holder: &_| folders::tell_of_waiting(&folder, holder, console);
         let access = match runs {
-            Some(runs) if !arguments.force => {
-                folder.open(folder.enter(&runs.sweep, &wait)?, &runs.sweep)?
+            Some(_) if arguments.force => folder.lock(&wait)?,
+            None => folder.lock(&wait)?,
+            Some(runs) => {
+                let access = folder.enter(&runs.sweep, &wait)?;
+                if arguments.out.is_none() {
+                    folders::refuse_another_file(&folder, &runs.sweep, &arguments.file)?;
+                }
+                if access.is_alone() {
+                    folder.note_source(&arguments.file)?;
+                }
+                folder.open(access, &runs.sweep)?
             }
-            _ => folder.lock(&wait)?,
         };
         Ok(Self {
             folder,
@@ -82,7 +90,7 @@ impl Place {
         console: &Console,
     ) -> Result<(RunTable, Tally), Failure> {
         let workers = arguments.workers.count();
-        let rounds = Rounds {
+        let runner = Runner {
             folder: &self.folder,
             workers,
             stop: self.stop,
@@ -91,12 +99,12 @@ impl Place {
             shard: arguments.shard.as_ref().or(arguments.job.as_ref()),
             console,
         };
-        let plan = table.applied_to(rounds.plan(comparison.jobs.clone())?);
+        let plan = table.applied_to(runner.plan(comparison.jobs.clone())?);
         let is_row_alone = |it: &&(Job, Standing)| it.1 == Standing::Labelled;
         let rows_alone = plan.jobs.iter().filter(is_row_alone).map(|_| None);
         builds::tell_of_others("row", rows_alone, console);
         warn_of_days(comparison, &plan, workers, console);
-        let run = rounds.run(&comparison.sweep, &plan)?;
+        let run = runner.run(&comparison.sweep, &plan)?;
         let is_left_to_others = run.is_left_to_others(console);
         if !is_left_to_others {
             table.add_records(comparison, &self.folder, workers)?;

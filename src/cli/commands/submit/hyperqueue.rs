@@ -5,18 +5,8 @@ use crate::cli::exit::Failure;
 use crate::cli::format;
 
 pub(super) fn write(order: &Handover<'_>) -> Result<Submission, Failure> {
-    let Handover {
-        program,
-        command,
-        file,
-        out,
-        here,
-        name,
-        arguments,
-        ..
-    } = order;
-    let cores = arguments.jobs;
-    let time = arguments.time.as_secs();
+    let (here, name, run) = (&order.here, &order.name, order.run());
+    let (cores, time) = (order.arguments.jobs, order.arguments.time.as_secs());
     let logs = order.place.join("hyperqueue-logs");
     let lines = order.lines();
     let quoted = |text: &str| toml::Value::String(text.to_owned()).to_string();
@@ -32,10 +22,7 @@ pub(super) fn write(order: &Handover<'_>) -> Result<Submission, Failure> {
     // Whatever becomes of a task, the last one is to come and submit what is missing. A task whose
     // worker was lost is started again, and continues from its checkpoints.
     for (id, line) in lines.iter().enumerate() {
-        let line_of_shell = format!(
-            "cd {here} && {program} {command} {file} --out {out} --job {line} --jobs {cores} \
-             || true"
-        );
+        let line_of_shell = format!("cd {here} && {run} --job {line} || true");
         text += &format!(
             "\n[[task]]\nid = {id}\ncommand = [\"bash\", \"-c\", {}]\ncrash_limit = 5\n\
              [[task.request]]\nresources = {{ \"cpus\" = {cores} }}\ntime_request = \"{time}s\"\n",
@@ -55,7 +42,7 @@ pub(super) fn write(order: &Handover<'_>) -> Result<Submission, Failure> {
     let words = words.chain([job.display().to_string()]);
     Ok(Submission {
         tasks: lines.len(),
-        commands: vec![words.chain(arguments.more.iter().cloned()).collect()],
+        commands: vec![words.chain(order.arguments.more.iter().cloned()).collect()],
         files: vec![job, next, todo],
     })
 }

@@ -7,15 +7,6 @@ use std::fs;
 use std::path::Path;
 
 pub(super) fn write(order: &Handover<'_>) -> Result<Submission, Failure> {
-    let Handover {
-        program,
-        command,
-        file,
-        out,
-        here,
-        arguments,
-        ..
-    } = order;
     let lines = order.lines();
     remove_open(&order.place.join("shards"));
     for line in &lines {
@@ -26,11 +17,13 @@ pub(super) fn write(order: &Handover<'_>) -> Result<Submission, Failure> {
         order.write(&format!("shards/{}/job", &name[..12]), line)?;
     }
     let shards = order.path("shards")?;
+    let (here, run, arguments) = (&order.here, order.run(), order.arguments);
     let cores = arguments.jobs;
+    // row puts the name of a directory into the line.
+    let own = format!("{shards}/{{directory}}");
     let line = format!(
-        "cd {here} && {program} {command} {file} --out {out} --jobs {cores} --json --job \
-         \"$(cat {shards}/{{directory}}/job)\" > {shards}/{{directory}}/answer.json && \
-         mv {shards}/{{directory}}/answer.json {shards}/{{directory}}/done.json"
+        "cd {here} && {run} --json --job \"$(cat {own}/job)\" > {own}/answer.json && \
+         mv {own}/answer.json {own}/done.json"
     );
     let text = format!(
         "# {} runs that are missing, about {}. `phase submit` writes this file again.\n\

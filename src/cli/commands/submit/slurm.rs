@@ -15,19 +15,10 @@ pub(super) fn write(order: &Handover<'_>) -> Result<Submission, Failure> {
     // Tasks are numbered from 1, and their largest number is below the size.
     let of = order.tasks(largest_array() - 1);
     let shards = shards_with_missing(order, of);
-    let Handover {
-        program,
-        command,
-        file,
-        out,
-        here,
-        name,
-        arguments,
-        ..
-    } = order;
+    let (here, name, arguments) = (&order.here, &order.name, order.arguments);
     let (cores, time) = (arguments.jobs, clock(arguments.time));
     let (in_script, log) = output(order, "%A.log")?;
-    let array = ranges(&shards);
+    let (array, run) = (ranges(&shards), order.run());
     let (runs, hours) = (order.next.missing.len(), format::core_hours(order.seconds));
     let text = format!(
         "#!/bin/bash\n\
@@ -55,7 +46,7 @@ pub(super) fn write(order: &Handover<'_>) -> Result<Submission, Failure> {
              exit\n\
          }}\n\
          trap again TERM\n\
-         {program} {command} {file} --out {out} --jobs {cores} \\\n    \
+         {run} \\\n    \
              --shard $SLURM_ARRAY_TASK_ID/{of} &\n\
          work=$!\n\
          wait $work\n"

@@ -2,7 +2,7 @@
 
 use crate::cli::exit::Failure;
 use crate::cli::figures;
-use crate::cli::rounds::{Part, Rounds, Run, tell_of_plan};
+use crate::cli::runner::{Part, Runner, RunsMade, tell_of_plan};
 use crate::cli::{format, refined};
 use phase::refine::{Finish, Settings};
 use phase::sweep::{Plan, Pool, Refinement, Report, Sweep, WatchRounds};
@@ -14,21 +14,21 @@ const BETWEEN_NOTES: Duration = Duration::from_secs(5);
 /// Runs the rounds of a sweep, and draws each if `draws`. Gives the plan of all jobs, what was run,
 /// and how far refining is.
 pub(super) fn refine(
-    rounds: &Rounds<'_>,
+    runner: &Runner<'_>,
     sweep: &Sweep,
     draws: bool,
-) -> Result<(Plan, Run, Refinement), Failure> {
+) -> Result<(Plan, RunsMade, Refinement), Failure> {
     let mut watcher = Watcher {
-        rounds,
+        runner,
         draws,
         run: None,
         told: Instant::now(),
     };
-    let done = rounds.with_pool(sweep, |pool| pool.refine(&mut watcher))?;
-    tell_of_end(rounds, sweep, &done.refinement, done.end);
+    let done = runner.with_pool(sweep, |pool| pool.refine(&mut watcher))?;
+    tell_of_end(runner, sweep, &done.refinement, done.end);
     let report = done.report;
     let done_before = done.plan.labelled().count();
-    let run = Run {
+    let run = RunsMade {
         done_before: done_before.saturating_sub(report.finished + report.elsewhere),
         report,
         next: done.next,
@@ -52,28 +52,28 @@ fn part(sweep: &Sweep, refinement: &Refinement) -> Part {
     }
 }
 
-fn tell_of_end(rounds: &Rounds<'_>, sweep: &Sweep, refinement: &Refinement, end: Option<Finish>) {
+fn tell_of_end(runner: &Runner<'_>, sweep: &Sweep, refinement: &Refinement, end: Option<Finish>) {
     let (Some(end), Some(settings)) = (end, &sweep.refine) else {
         return;
     };
-    rounds.console.result(format_args!(
+    runner.console.result(format_args!(
         "refined with {}: {}; {}",
         format::count(refinement.runs(), "run"),
         refined::describe_end(settings, end),
         refined::describe_widest(sweep, refinement.refining())
     ));
     if let Some(gap) = refinement.gap().filter(|gap| gap.radius > 0.0) {
-        rounds.console.note(refined::describe_gap(sweep, &gap));
+        runner.console.note(refined::describe_gap(sweep, &gap));
     }
 }
 
 /// Shows rounds to people.
 struct Watcher<'a> {
-    rounds: &'a Rounds<'a>,
+    runner: &'a Runner<'a>,
     /// Whether each round is drawn.
     draws: bool,
     /// The runs so far, for the report.
-    run: Option<Run>,
+    run: Option<RunsMade>,
     /// When progress was last reported.
     told: Instant,
 }
@@ -88,10 +88,10 @@ impl WatchRounds for Watcher<'_> {
         refinement: &Refinement,
     ) -> Result<Report, Failure> {
         if self.run.is_none() {
-            tell_of_plan(plan, self.rounds.console);
+            tell_of_plan(plan, self.runner.console);
         }
         let part = part(pool.sweep, refinement);
-        let mut round = self.rounds.run_part(plan, pool, part)?;
+        let mut round = self.runner.run_part(plan, pool, part)?;
         let report = std::mem::take(&mut round.report);
         round.seconds += self.run.take().map_or(0.0, |before| before.seconds);
         self.run = Some(round);
@@ -102,7 +102,7 @@ impl WatchRounds for Watcher<'_> {
     fn known(&mut self, refinement: &Refinement) {
         if self.told.elapsed() >= BETWEEN_NOTES {
             self.told = Instant::now();
-            self.rounds.console.note(format_args!(
+            self.runner.console.note(format_args!(
                 "round {} replayed: {}",
                 refinement.rounds(),
                 format::count(refinement.runs(), "run")
@@ -113,7 +113,7 @@ impl WatchRounds for Watcher<'_> {
     /// Prints what a round has shown, and updates the figure.
     fn learnt(&mut self, pool: &Pool<'_>, refinement: &Refinement) -> Result<(), Failure> {
         if let Some(settings) = &pool.sweep.refine {
-            self.rounds.console.note(format_args!(
+            self.runner.console.note(format_args!(
                 "round {}: {} of at most {}; {}",
                 refinement.rounds(),
                 format::count(refinement.runs(), "run"),

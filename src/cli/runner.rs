@@ -17,7 +17,7 @@ use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 /// How and where the jobs of a sweep are run.
-pub(super) struct Rounds<'a> {
+pub(super) struct Runner<'a> {
     pub(super) folder: &'a Folder,
     pub(super) workers: usize,
     pub(super) stop: &'a AtomicBool,
@@ -28,7 +28,7 @@ pub(super) struct Rounds<'a> {
     pub(super) console: &'a Console,
 }
 
-impl Rounds<'_> {
+impl Runner<'_> {
     /// What is done of these jobs, and what is left.
     pub(super) fn plan(&self, jobs: Vec<Job>) -> Result<Plan, Failure> {
         Ok(match self.force {
@@ -38,7 +38,7 @@ impl Rounds<'_> {
     }
 
     /// Runs what is left of a plan.
-    pub(super) fn run(&self, sweep: &Sweep, plan: &Plan) -> Result<Run, Failure> {
+    pub(super) fn run(&self, sweep: &Sweep, plan: &Plan) -> Result<RunsMade, Failure> {
         tell_of_plan(plan, self.console);
         self.with_pool(sweep, |pool| self.run_part(plan, pool, Part::default()))
     }
@@ -64,7 +64,7 @@ impl Rounds<'_> {
         plan: &Plan,
         pool: &Pool<'_>,
         part: Part,
-    ) -> Result<Run, Failure> {
+    ) -> Result<RunsMade, Failure> {
         run(plan, pool, part, self.workers, self.console)
     }
 }
@@ -80,7 +80,7 @@ pub(super) struct Part {
 
 /// The runs made now.
 #[derive(Default)]
-pub(super) struct Run {
+pub(super) struct RunsMade {
     pub(super) report: Report,
     /// Jobs that had a record before, or a label that counts without one.
     pub(super) done_before: usize,
@@ -99,7 +99,7 @@ fn run(
     part: Part,
     workers: usize,
     console: &Console,
-) -> Result<Run, Failure> {
+) -> Result<RunsMade, Failure> {
     let sweep = pool.sweep;
     let progress = Progress::new(console, work_of(plan, part, sweep));
     let name = |job: &Job| describe(&sweep.axes, &job.values, job.seed);
@@ -134,7 +134,7 @@ fn run(
         .iter()
         .filter_map(|(job, _)| unstable.remove(&job.id))
         .collect();
-    Ok(Run {
+    Ok(RunsMade {
         report: report?,
         done_before: plan.labelled().count(),
         seconds,
@@ -162,7 +162,7 @@ fn work_of(plan: &Plan, part: Part, sweep: &Sweep) -> Work {
     }
 }
 
-impl Run {
+impl RunsMade {
     /// Says what is left to other shards, if anything is.
     pub(super) fn is_left_to_others(&self, console: &Console) -> bool {
         if self.report.others > 0 {
