@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 /// Largest number of axes.
 const MOST_AXES: usize = 4;
 
-/// Largest number of jobs: their scenes are held in memory.
+/// Largest number of jobs: all are held in memory, with half a kilobyte each.
 pub(crate) const MOST_JOBS: usize = 1_000_000;
 
 /// For the key `scene`: the path of a file, or what the schema says.
@@ -106,6 +106,13 @@ pub(crate) fn check_axes(axes: &[Axis], problems: &mut Vec<Problem>) {
             let help = format!("add a `name`, such as \"{}\"", axis.key);
             problems.push(Problem::new(path, message).help(help));
         }
+    }
+}
+
+/// Where an axis has the step of every point, none is chosen for the scene.
+pub(crate) fn give_the_step_to_an_axis(scene: &mut Scene, axes: &[Axis]) {
+    if axes.iter().any(|axis| axis.key == "time.dt") {
+        scene.time.safety_factor = None;
     }
 }
 

@@ -12,7 +12,7 @@ pub use axis::Axis;
 pub(crate) use axis::AxisEntry;
 pub(crate) use file::{
     MOST_JOBS, base_scene, check_axes, check_jobs, check_number_of_axes, check_points, check_steps,
-    expand_axes, or_path,
+    expand_axes, give_the_step_to_an_axis, or_path,
 };
 pub use points::{PointError, describe};
 pub(crate) use points::{PointScenes, describe_point, number_of_points, points, variant_at};

@@ -1,6 +1,7 @@
 //! Variants: named changes of a scene, which are the values of an axis.
 
 use super::Axis;
+use super::file::give_the_step_to_an_axis;
 use crate::classify::LabelTable;
 use crate::document::{Document, LoadError, Problem};
 use crate::run::{self, Reading};
@@ -126,9 +127,7 @@ pub(crate) fn expand_variants(
         let changed = check_change(&change, axes).and_then(|()| source.changed(&change)?.scene());
         match changed {
             Ok(mut scene) => {
-                if axes.iter().any(|axis| axis.key == "time.dt") {
-                    scene.time.safety_factor = None;
-                }
+                give_the_step_to_an_axis(&mut scene, axes);
                 variants.push(Variant {
                     name: entry.name.clone(),
                     scale: change.scale,

@@ -7,7 +7,7 @@ use crate::document::{Document, LoadError, Problem, Schema, differing_keys, one_
 use crate::grid::{
     AxisEntry, PointScenes, SceneTree, SeedsEntry, VariantEntry, base_scene, check_axes,
     check_jobs, check_number_of_axes, check_points, check_steps, describe_point, expand_axes,
-    expand_seeds, expand_variants, or_path,
+    expand_seeds, expand_variants, give_the_step_to_an_axis, or_path,
 };
 use crate::run::Reading;
 use crate::scene::{FileKind, Scene, settings};
@@ -98,10 +98,7 @@ pub(crate) fn of_document(document: &Document) -> Result<Sweep, LoadError> {
             &mut problems,
         ));
     }
-    if axes.iter().any(|axis| axis.key == "time.dt") {
-        // The axis has a number for every point.
-        scene.time.safety_factor = None;
-    }
+    give_the_step_to_an_axis(&mut scene, &axes);
     let entry = file.seeds.as_ref();
     let seeds = match &file.refine {
         Some(refine) => refine.seeds(entry, &mut problems),

@@ -119,8 +119,8 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         }
     };
     run.print(&plan, &sweep, console);
-    let jobs: Vec<Job> = plan.jobs.iter().map(|(job, _)| job.clone()).collect();
     let mut answer = Answer::new(&folder, &plan, &sweep, &run);
+    let jobs: Vec<Job> = plan.jobs.into_iter().map(|(job, _)| job).collect();
     answer.refined =
         refinement.and_then(|it| refined::Answer::new(&sweep, Some(it.refining()), it.runs()));
     if stop.load(Ordering::Relaxed) {

@@ -3,7 +3,9 @@
 use super::Setting;
 use crate::classify::Family;
 use crate::document::{Document, LoadError, Problem, number};
-use crate::grid::{PointScenes, SceneTree, Variant, base_scene, check_change};
+use crate::grid::{
+    PointScenes, SceneTree, Variant, base_scene, check_change, give_the_step_to_an_axis,
+};
 use crate::run::{self, Reading};
 use crate::scene::{Change, FileKind, Friction, Scene, is_within};
 use crate::sweep::{self, Sweep};
@@ -72,9 +74,7 @@ impl Base {
         let source = self.source.changed(change)?;
         let mut sweep = self.sweep.clone();
         sweep.scene = source.scene()?;
-        if sweep.axes.iter().any(|axis| axis.key == "time.dt") {
-            sweep.scene.time.safety_factor = None;
-        }
+        give_the_step_to_an_axis(&mut sweep.scene, &sweep.axes);
         for (name, factor) in &change.scale {
             for axis in sweep.axes.iter_mut().filter(|axis| axis.name == *name) {
                 axis.values.iter_mut().for_each(|value| *value *= factor);

@@ -5,7 +5,7 @@ use crate::classify::{ENERGY_GAIN, NUMERICS};
 use crate::document::{Document, LoadError, Problem, Schema, unit};
 use crate::grid::{
     Axis, AxisEntry, PointError, Variant, base_scene, check_axes, check_jobs, check_points,
-    check_steps, expand_axes, or_path,
+    check_steps, expand_axes, give_the_step_to_an_axis, or_path,
 };
 use crate::run::Reading;
 use crate::scene::{Change, FileKind, Integrator, Scene, settings};
@@ -118,10 +118,7 @@ pub(crate) fn of_document(document: &Document) -> Result<StabilityStudy, LoadErr
     let mut scene = base_scene(&file.scene, document, READING)?;
     let axes = expand_axes(&file.axis, &scene, &mut problems);
     check_steps(&axes, &mut problems);
-    if axes.iter().any(|axis| axis.key == "time.dt") {
-        // The axis has a number for every point.
-        scene.time.safety_factor = None;
-    }
+    give_the_step_to_an_axis(&mut scene, &axes);
     check_axes(&axes, &mut problems);
     check_study(&file, &axes, &mut problems);
     document.accept(&problems)?;
