@@ -9,7 +9,7 @@ use std::time::Duration;
 
 const TABLES: [&str; 3] = ["labels.csv", "points.csv", "sweep.json"];
 
-fn refined() -> String {
+pub(crate) fn refined() -> String {
     let sweep = TinySweep {
         omegas: (0..16).map(f64::from).collect(),
         duration: 4.0,

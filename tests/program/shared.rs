@@ -266,16 +266,17 @@ fn dead_lease(place: &Workplace, name: &str) {
     place.write(&format!("results/tiny/{name}.lease"), text);
 }
 
-/// Symptom: a dead process on another machine kept all others out for ever. Cause: they gave up
-/// after ten seconds, and began to watch it anew each time.
+/// Symptom: a dead process on another machine kept all others out for ever, and later for two
+/// minutes with each of its leases. Cause: they gave up after ten seconds, and began to watch it
+/// anew each time; leases were watched one after the other.
 #[test]
-#[ignore = "watches for four minutes"]
+#[ignore = "watches for two minutes"]
 fn leases_of_a_dead_machine_are_broken() {
     let place = Workplace::new();
     place.write("tiny.toml", &TinySweep::default().text());
     place.phase(&["sweep", "tiny.toml"]).code(0);
     fs::remove_file(place.path("results/tiny/labels.csv")).unwrap();
-    for name in [".door", ".at-work-gone-1-0", ".at-work-gone-2-0"] {
+    for name in [".door", ".at-work-gone-1-0", ".at-work-gone-2-0", ".labels"] {
         dead_lease(&place, name);
     }
     let begun = std::time::Instant::now();
@@ -284,9 +285,9 @@ fn leases_of_a_dead_machine_are_broken() {
         .code(0)
         .complains("watching for up to two minutes whether process 1 on gone is still at work")
         .says("6 runs labelled");
-    // First the door, then all others at once.
+    // All at once.
     assert!(
-        begun.elapsed() < Duration::from_mins(5),
+        begun.elapsed() < Duration::from_secs(230),
         "{:?}",
         begun.elapsed()
     );
