@@ -1,7 +1,7 @@
 //! The points of a grid and their scenes.
 
 use super::{Axis, Variant};
-use crate::document::Problem;
+use crate::document::{Problem, number};
 use crate::scene::{Scene, Template};
 
 /// A point of the grid whose scene cannot be run.
@@ -115,10 +115,16 @@ impl PointError {
     /// What is wrong at the point with these values.
     pub(crate) fn new(axes: &[Axis], values: &[f64], problems: Vec<Problem>) -> Self {
         let pairs = axes.iter().zip(values);
-        let mut places = pairs.filter(|(axis, _)| axis.is_of_variants());
+        let mut places = pairs.clone().filter(|(axis, _)| axis.is_of_variants());
         let variant = places.next().map(|(_, place)| *place as usize);
+        let pairs: Vec<String> = pairs
+            .map(|(axis, &value)| match axis.variant(value) {
+                Some(variant) => format!("{} = {}", axis.name, variant.name),
+                None => format!("{} = {}", axis.name, number(value)),
+            })
+            .collect();
         Self {
-            point: describe_point(axes, values),
+            point: pairs.join(", "),
             variant,
             problems,
         }
