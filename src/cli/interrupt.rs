@@ -9,16 +9,20 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// Set by the first signal.
 static STOP: AtomicBool = AtomicBool::new(false);
 
-/// From now on the first signal sets the flag that is returned; the second ends the program at
-/// once. A signal that was ignored when the program started stays ignored: `nohup` ignores the
+/// From now on the first signal sets the flag that is returned; another Ctrl-C ends the program at
+/// once. Requests to end may come twice: Slurm sends one to all processes of a task, and the script
+/// of the task hands its own on. A signal that was ignored when the program started stays ignored: `nohup` ignores the
 /// hang-up, and a shell the Ctrl-C of what it runs in the background.
 pub(crate) fn stop_on_signal(console: &Console) -> Result<&'static AtomicBool, Failure> {
     let speaker = Console::new(console.is_quiet(), console.is_verbose(), false);
     let ignored = ignored_signals();
     let wanted = SIGNALS.iter().filter(|&&signal| !ignored.contains(signal));
-    listen(wanted.copied().collect(), move || {
+    listen(wanted.copied().collect(), move |signal| {
         if STOP.swap(true, Ordering::Relaxed) {
-            std::process::exit(Exit::Interrupted as i32);
+            if signal == SIGINT {
+                std::process::exit(Exit::Interrupted as i32);
+            }
+            return;
         }
         // On a terminal the cursor stands behind the bar.
         let line = if std::io::stderr().is_terminal() {
@@ -51,26 +55,30 @@ const SIGNALS: [i32; 3] = [SIGINT, SIGTERM, signal_hook::consts::SIGHUP];
 #[cfg(not(unix))]
 const SIGNALS: [i32; 2] = [SIGINT, SIGTERM];
 
-/// Calls `act` for each signal, on a thread of its own.
+/// Calls `act` with each signal, on a thread of its own.
 #[cfg(unix)]
-fn listen(signals: Vec<i32>, act: impl Fn() + Send + 'static) -> std::io::Result<()> {
+fn listen(signals: Vec<i32>, act: impl Fn(i32) + Send + 'static) -> std::io::Result<()> {
     let mut signals = signal_hook::iterator::Signals::new(signals)?;
-    std::thread::Builder::new().spawn(move || signals.forever().for_each(|_| act()))?;
+    std::thread::Builder::new().spawn(move || signals.forever().for_each(act))?;
     Ok(())
 }
 
 /// The same where a signal can only set a flag, which a thread looks at.
 #[cfg(not(unix))]
-fn listen(signals: Vec<i32>, act: impl Fn() + Send + 'static) -> std::io::Result<()> {
-    let flag = std::sync::Arc::new(AtomicBool::new(false));
+fn listen(signals: Vec<i32>, act: impl Fn(i32) + Send + 'static) -> std::io::Result<()> {
+    let mut flags = Vec::new();
     for signal in signals {
+        let flag = std::sync::Arc::new(AtomicBool::new(false));
         signal_hook::flag::register(signal, std::sync::Arc::clone(&flag))?;
+        flags.push((signal, flag));
     }
     std::thread::Builder::new().spawn(move || {
         loop {
             std::thread::sleep(std::time::Duration::from_millis(50));
-            if flag.swap(false, Ordering::Relaxed) {
-                act();
+            for (signal, flag) in &flags {
+                if flag.swap(false, Ordering::Relaxed) {
+                    act(*signal);
+                }
             }
         }
     })?;

@@ -124,6 +124,33 @@ fn an_interrupted_sweep_ends_soon_and_says_how_to_go_on() {
     }
 }
 
+/// Symptom: a preempted task left no checkpoint. Cause: Slurm asks all processes of a task to end,
+/// its script hands its own request on, and the second one ended the program at once.
+#[test]
+fn two_requests_to_end_leave_checkpoints() {
+    let place = Workplace::new();
+    let slow = TinySweep {
+        duration: 3000.0,
+        ..TinySweep::slow()
+    };
+    place.write("tiny.toml", &slow.text());
+    let files = |end: &str| {
+        let files = fs::read_dir(place.path("results/records"))
+            .into_iter()
+            .flatten();
+        let names = files.map(|file| file.unwrap().file_name().into_string().unwrap());
+        names.filter(|name| name.ends_with(end)).count()
+    };
+    let child = place.start(&["sweep", "tiny.toml", "--out", "results"]);
+    wait_until(|| files(".lease") > 0);
+    std::thread::sleep(std::time::Duration::from_millis(300));
+    for _ in 0..2 {
+        signal(&child, "TERM");
+    }
+    end(child).code(130).complains("6 jobs left");
+    assert!(files(".checkpoint") > 0);
+}
+
 #[test]
 fn only_new_parameters_are_run() {
     let place = Workplace::new();
