@@ -33,6 +33,10 @@ pub(crate) struct Arguments {
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
     let workers = arguments.workers.count();
     let into = Folder::new(&arguments.into);
+    if !into.sweep().exists() {
+        let message = "this is no results folder; give one of those that are to be joined first";
+        return Err(Failure::refused(message).at(into.root()));
+    }
     let sweep = into.read_sweep()?;
     let from: Vec<Folder> = arguments.from.iter().map(Folder::new).collect();
     // All are checked before the first record is taken.

@@ -181,7 +181,11 @@ fn submit(commands: &[Vec<String>], console: &Console) -> Result<Vec<String>, Fa
             return Err(Failure::failed(format_args!("{line}: {}", message.trim())));
         }
         let name = String::from_utf8_lossy(&output.stdout).trim().to_owned();
-        console.result(format_args!("submitted: {name}"));
+        let what = match names.len() {
+            0 => "submitted",
+            _ => "submitted what follows",
+        };
+        console.result(format_args!("{what}: {name}"));
         // Federations add the name of the cluster.
         names.push(name.split(';').next().unwrap_or_default().to_owned());
     }

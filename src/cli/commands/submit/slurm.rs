@@ -17,8 +17,10 @@ pub(super) fn write(order: &Handover<'_>) -> Result<Submission, Failure> {
     let shards = shards_with_missing(order, of);
     let (here, name, arguments) = (&order.here, &order.name, order.arguments);
     let (cores, time) = (arguments.jobs, clock(arguments.time));
-    let (in_script, log) = output(order, "%A.log")?;
+    let (in_script, log) = output(order, "%A_%a.log")?;
     let (array, run) = (ranges(&shards), order.run());
+    // Enough for checkpoints, and not all of a short task.
+    let early = (arguments.time.as_secs() / 4).clamp(15, 120);
     let (runs, hours) = (order.next.missing.len(), format::core_hours(order.seconds));
     let text = format!(
         "#!/bin/bash\n\
@@ -26,7 +28,7 @@ pub(super) fn write(order: &Handover<'_>) -> Result<Submission, Failure> {
          #SBATCH --array={array}\n\
          #SBATCH --cpus-per-task={cores}\n\
          #SBATCH --time={time}\n\
-         #SBATCH --signal=B:TERM@120\n\
+         #SBATCH --signal=B:USR1@{early}\n\
          #SBATCH --requeue\n\
          #SBATCH --open-mode=append\n\
          {in_script}\
@@ -35,17 +37,21 @@ pub(super) fn write(order: &Handover<'_>) -> Result<Submission, Failure> {
          # them. `phase submit` writes this file again.\n\
          cd {here} || exit\n\
          \n\
-         # Slurm sends TERM before the time is up, and when it needs the node: runs leave a\n\
-         # checkpoint, and the task goes back into the queue.\n\
+         # Runs leave a checkpoint when the task is to end. Before its time is up it goes back into\n\
+         # the queue; one that is preempted is put there by Slurm, and one that is cancelled is not.\n\
+         leave() {{\n    \
+             kill -TERM $work 2>/dev/null\n    \
+             wait $work\n\
+         }}\n\
          again() {{\n    \
-             kill -TERM $work\n    \
-             wait $work\n    \
+             leave\n    \
              case $? in\n    \
              130 | 143) scontrol requeue \"${{SLURM_ARRAY_JOB_ID}}_$SLURM_ARRAY_TASK_ID\" ;;\n    \
              esac\n    \
              exit\n\
          }}\n\
-         trap again TERM\n\
+         trap again USR1\n\
+         trap 'leave; exit' TERM\n\
          {run} \\\n    \
              --shard $SLURM_ARRAY_TASK_ID/{of} &\n\
          work=$!\n\
