@@ -116,6 +116,8 @@ pub mod render;
 #[doc(hidden)]
 pub mod replay;
 pub mod resume;
+#[doc(hidden)]
+pub mod rule;
 pub mod run;
 pub mod scene;
 pub mod simulation;
