@@ -58,6 +58,14 @@ pub enum ClassifyError {
         /// Window of the scene's steady part (s).
         steady: f64,
     },
+    /// The record lacks a column that a rule reads.
+    #[error("the rule \"{rule}\" reads `{column}`, which this record lacks; run the scene again")]
+    NoColumn {
+        /// Name of the label or measure.
+        rule: String,
+        /// The column.
+        column: String,
+    },
     /// The parts of a record contradict each other.
     #[error("the record contradicts itself: {0}; run the scene again")]
     Inconsistent(String),

@@ -2,6 +2,7 @@
 
 use super::drainage::DRAINAGE;
 use super::none::NONE;
+use super::rules::PreparedRules;
 use super::sieve::SieveOfFamily;
 use super::silo::SILO;
 use super::tank::TANK;
@@ -31,18 +32,25 @@ pub struct Family {
     pub(super) check: fn(&Sieves, &Scene) -> Result<(), ClassifyError>,
     /// Label and measures of a run that no guard ended.
     pub(super) judge: Judge,
+    /// The rules of a file that made the family, if any did.
+    pub(super) rules: Option<&'static PreparedRules>,
 }
 
 /// From a run that no guard ended to its label and to the values of its family's measures.
 pub(super) type Judge = fn(&RunRecord, &Sieves) -> Result<(Label, Vec<Option<f64>>), ClassifyError>;
 
 impl Family {
-    /// The family of a scene.
+    /// The family of a scene, without rules of its own.
     pub fn of(scene: &Scene) -> &'static Self {
         let mut families = FAMILIES.into_iter();
         families
             .find(|family| (family.takes)(scene))
             .unwrap_or(&NONE)
+    }
+
+    /// Whether it is another family with further measures.
+    pub fn extends(&self, other: &Self) -> bool {
+        self.rules.is_some_and(|rules| rules.extends(other))
     }
 
     /// The labels that its runs can have, in the order of their codes.
@@ -78,7 +86,7 @@ impl Family {
 
 impl PartialEq for Family {
     fn eq(&self, other: &Self) -> bool {
-        self.name == other.name
+        std::ptr::eq(self, other)
     }
 }
 

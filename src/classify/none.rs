@@ -18,4 +18,5 @@ pub static NONE: Family = Family {
     takes: |_| true,
     check: |_, _| Ok(()),
     judge: |_, _| Ok((Label::STABLE, Vec::new())),
+    rules: None,
 };

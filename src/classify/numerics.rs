@@ -34,6 +34,7 @@ pub static NUMERICS: Family = Family {
         let verdict = judge_numerics(record, ENERGY_GAIN);
         Ok((verdict.label, verdict.values))
     },
+    rules: None,
 };
 
 /// Largest spurious gain of energy that counts as stable, by default.

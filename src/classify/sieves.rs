@@ -4,6 +4,7 @@ use super::drainage::blocked::BlockedSieve;
 use super::drainage::drained::DrainedSieve;
 use super::drainage::run::DrainageRun;
 use super::drainage::stagnant::StagnantSieve;
+use super::rules::{self, Rules};
 use super::sieve::{Sieve, SieveOfFamily, Sifted};
 use super::silo::arching::ArchingSieve;
 use super::silo::emptied::EmptiedSieve;
@@ -38,6 +39,11 @@ macro_rules! sieves {
         #[serde(deny_unknown_fields, default)]
         pub struct Sieves {
             $($($(#[$about])+ pub $name: $Sieve,)+)+
+            /// Labels and measures that the file states itself: its tables `[[label]]` and
+            /// `[[measure]]`.
+            #[serde(skip_serializing_if = "Rules::is_empty")]
+            #[schemars(skip)]
+            pub rules: Rules,
         }
 
         $(
@@ -91,6 +97,16 @@ sieves! {
 }
 
 impl Sieves {
+    /// The family of a scene with these rules.
+    pub fn family(&self, scene: &Scene) -> &'static Family {
+        let base = Family::of(scene);
+        match self.rules.is_empty() {
+            true => base,
+            // Rules that are wrong were refused with their file.
+            false => rules::family(&self.rules, base, scene).unwrap_or(base),
+        }
+    }
+
     /// Whether these sieves can judge runs of this scene, as far as this is known before a run.
     /// Sieves of other families do not matter.
     ///
@@ -98,7 +114,7 @@ impl Sieves {
     /// A threshold is out of range; a tank has no gravity to measure energy by, or does not count
     /// the rising spheres that the spout sieve asks for; a silo has no outlet.
     pub fn check(&self, scene: &Scene) -> Result<(), ClassifyError> {
-        let family = Family::of(scene);
+        let family = self.family(scene);
         for sieve in family.sieves {
             (sieve.check)(self, scene)?;
         }
@@ -108,7 +124,7 @@ impl Sieves {
     /// Sieves whose windows (s) are longer than a run of this scene, by their names: it can have
     /// none of their labels. A silo's sieves shorten their windows instead.
     pub fn without_room(&self, scene: &Scene) -> Vec<(&'static str, f64)> {
-        let windows = Family::of(scene).windows(self);
+        let windows = self.family(scene).windows(self);
         windows
             .filter(|(_, window)| *window > scene.time.duration)
             .collect()

@@ -51,7 +51,7 @@ impl Verdict {
 /// itself.
 pub fn classify(record: &RunRecord, sieves: &Sieves) -> Result<Verdict, ClassifyError> {
     sieves.check(&record.scene)?;
-    let family = Family::of(&record.scene);
+    let family = sieves.family(&record.scene);
     if let Outcome::Unstable(_) = record.outcome {
         return Ok(Verdict::unmeasured(family, Label::UNSTABLE));
     }

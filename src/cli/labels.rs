@@ -4,7 +4,6 @@ use super::console::{Console, name_first};
 use super::exit::Failure;
 use super::format;
 use phase::classify::{ClassifyError, Label, LabelTable};
-use phase::store;
 use phase::sweep::{Folder, Job, Labelled, Labelling, LabellingError, Learnt, Since, Sweep};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -38,7 +37,7 @@ pub(super) fn read(folder: &Folder) -> Result<LabelTable, Failure> {
         ))
         .at(path));
     }
-    store::read_labels(&path).map_err(|error| {
+    folder.read_labels().map_err(|error| {
         Failure::failed(format_args!(
             "{error}; `phase classify {}` rewrites it",
             root.display()

@@ -1,7 +1,6 @@
 //! Progress of a refined sweep: its runs, and how well its borders are known.
 
 use super::{format, job};
-use phase::classify::Family;
 use phase::refine::{Finish, Gap, Settings, Width};
 use phase::sweep::{Refining, Sweep, label_name};
 use serde::Serialize;
@@ -32,7 +31,7 @@ impl Answer {
     /// For a sweep with this number of runs; `None` if it is not refined.
     pub(super) fn new(sweep: &Sweep, refining: Option<&Refining>, runs: usize) -> Option<Self> {
         let (settings, refining) = (sweep.refine.as_ref()?, refining?);
-        let family = Family::of(&sweep.scene);
+        let family = sweep.family();
         let border = |width: &Width| Border {
             labels: width.labels.map(|code| label_name(family, code)),
             axis: sweep.axes[width.axis].name.clone(),
@@ -61,7 +60,7 @@ fn share(share: f64) -> String {
 
 /// Names the two labels of a border.
 fn labels(sweep: &Sweep, width: &Width) -> String {
-    let family = Family::of(&sweep.scene);
+    let family = sweep.family();
     let [one, other] = width.labels.map(|code| label_name(family, code));
     format!("{one} to {other}")
 }

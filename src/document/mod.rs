@@ -155,15 +155,25 @@ impl Document {
         let mut path = problem.path.as_str();
         loop {
             if let Some(place) = self.places.get(path) {
-                let at_key = problem.at_key && path == problem.path;
-                return place
-                    .key
-                    .clone()
-                    .filter(|_| at_key)
-                    .or_else(|| Some(place.value.clone()));
+                let is_its_own = path == problem.path;
+                let key = place.key.clone().filter(|_| problem.at_key && is_its_own);
+                let part = problem.part.clone().filter(|_| is_its_own);
+                let part = part.and_then(|part| self.part_of_text(place.value.clone(), part));
+                return key.or(part).or_else(|| Some(place.value.clone()));
             }
             path = &path[..path.rfind(['.', '['])?];
         }
+    }
+
+    /// The place of a part of a text, if the file has the text as it is read: on one line, without
+    /// escapes.
+    fn part_of_text(&self, value: Range<usize>, part: Range<usize>) -> Option<Range<usize>> {
+        let written = &self.text[value.clone()];
+        let quote = written.chars().next().filter(|it| "\"'".contains(*it))?;
+        let inner = written.strip_prefix(quote)?.strip_suffix(quote)?;
+        let is_plain = !inner.contains(['\\', '\n']) && !inner.starts_with(quote);
+        let first = value.start + 1;
+        is_plain.then(|| first + part.start.min(inner.len())..first + part.end.min(inner.len()))
     }
 
     fn finding(

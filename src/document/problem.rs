@@ -1,5 +1,7 @@
 //! One thing that is wrong with a scene or a sweep.
 
+use std::ops::Range;
+
 /// One thing that is wrong with a scene or a sweep, with the key it concerns.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Problem {
@@ -14,6 +16,8 @@ pub struct Problem {
     /// The largest value that the help advises, if all smaller values are allowed too. If several
     /// scenes have such a problem, the smallest of these values fixes all.
     pub(crate) most: Option<f64>,
+    /// The part of a text that is at fault (bytes), if not the whole.
+    pub(crate) part: Option<Range<usize>>,
 }
 
 impl Problem {
@@ -25,7 +29,14 @@ impl Problem {
             help: None,
             at_key: false,
             most: None,
+            part: None,
         }
+    }
+
+    /// Only this part of the text, in bytes, is at fault.
+    pub(crate) fn part(mut self, part: Range<usize>) -> Self {
+        self.part = Some(part);
+        self
     }
 
     /// What to do about it.

@@ -143,7 +143,8 @@ impl Figure {
 
     /// Whether the figure can be drawn of scenes of a family.
     pub fn applies_to(&self, family: &Family) -> bool {
-        self.families.is_empty() || self.families.contains(&family)
+        let is_own = |own: &&Family| *own == family || family.extends(own);
+        self.families.is_empty() || self.families.iter().any(is_own)
     }
 
     /// Whether it is drawn from a sweep: from its labels, or from some of its runs.

@@ -17,36 +17,40 @@ use std::sync::LazyLock;
 /// A map of one measure of the verdicts.
 pub(super) struct MeasureMap {
     /// The measure's name, with dashes.
-    name: &'static str,
+    name: String,
     family: &'static Family,
     measure: &'static Measure,
 }
 
 /// All maps: one of each measure of each family, what runs did before evidence of the sieves.
-pub(super) static MAPS: LazyLock<Vec<MeasureMap>> = LazyLock::new(|| {
-    let of_family = |family: &'static Family| {
-        let mut measures: Vec<_> = family.measures().collect();
-        measures.sort_by_key(|measure| measure.is_evidence);
-        let map = move |measure: &'static Measure| MeasureMap {
-            // Made once, for as long as the program runs.
-            name: measure.name.replace('_', "-").leak(),
-            family,
-            measure,
-        };
-        measures.into_iter().map(map)
-    };
-    FAMILIES.into_iter().flat_map(of_family).collect()
-});
+pub(super) static MAPS: LazyLock<Vec<MeasureMap>> =
+    LazyLock::new(|| FAMILIES.into_iter().flat_map(of_family).collect());
+
+/// The maps of all measures of a family.
+fn of_family(family: &'static Family) -> impl Iterator<Item = MeasureMap> {
+    let mut measures: Vec<_> = family.measures().collect();
+    measures.sort_by_key(|measure| measure.is_evidence);
+    measures.into_iter().map(move |measure| MeasureMap {
+        name: measure.name.replace('_', "-"),
+        family,
+        measure,
+    })
+}
+
+/// The map of that name of a measure that the rules of a file added, if there is one.
+pub(super) fn of_rules(name: &str, family: &'static Family) -> Option<MeasureMap> {
+    let has_rules = !FAMILIES.contains(&family);
+    of_family(family).find(|map| has_rules && map.name == name)
+}
 
 pub(super) fn figure(map: &'static MeasureMap) -> Figure {
     let description = format!("map: {}", super::text::plain(&map.label(Units::Si)));
-    Figure::of_sweep(map.name, description, |source| map.draw(source)).for_families([map.family])
+    Figure::of_sweep(&map.name, description, |source| map.draw(source)).for_families([map.family])
 }
 
 /// The maps of what runs of a family did, without the evidence of its sieves.
-pub(super) fn of_measures(family: &'static Family) -> impl Iterator<Item = &'static MeasureMap> {
-    let maps = MAPS.iter();
-    maps.filter(move |map| map.family == family && !map.measure.is_evidence)
+pub(super) fn of_measures(family: &'static Family) -> impl Iterator<Item = MeasureMap> {
+    of_family(family).filter(|map| !map.measure.is_evidence)
 }
 
 impl MeasureMap {
@@ -84,7 +88,7 @@ impl MeasureMap {
         Estimate::of_mean(&self.values(source, point)).map(|mean| mean.value)
     }
 
-    fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
+    pub(super) fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
         let grid = PanelGrid::new(source)?;
         let points = grid
             .panels
@@ -98,7 +102,7 @@ impl MeasureMap {
             label.clone(),
         );
         Diagram {
-            name: self.name,
+            name: &self.name,
             grid: &grid,
             look: &|point| {
                 let value = self.mean(source, point)?;

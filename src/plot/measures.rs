@@ -30,7 +30,7 @@ fn draw(source: &Source<'_>) -> Result<Svg, PlotError> {
     let axis = grid::horizontal(source)?;
     let (lines, left_out) = series::lines(source, &axis)?;
     let panels: Vec<ChartPanel> = map::of_measures(source.table.family)
-        .filter_map(|map| panel(source, map, &lines, &axis))
+        .filter_map(|map| panel(source, &map, &lines, &axis))
         .collect();
     if panels.is_empty() {
         return Err(PlotError::no_measures(NAME));

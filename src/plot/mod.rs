@@ -182,6 +182,9 @@ fn draw_sweep(name: &str, source: &Source<'_>) -> Result<Svg, PlotError> {
         names.join(", ")
     };
     let Some(figure) = known().find(|figure| figure.name == name) else {
+        if let Some(map) = map::of_rules(name, source.table.family) {
+            return map.draw(source);
+        }
         return Err(PlotError::request(format_args!(
             "there is no figure `{name}`; the figures are {}",
             names(&mut known())

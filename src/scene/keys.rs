@@ -240,7 +240,7 @@ fn collect_table(
 
 impl Notation {
     /// The notation of a key in any scene that has it.
-    fn anywhere(path: &str) -> Option<Self> {
+    pub(crate) fn anywhere(path: &str) -> Option<Self> {
         let mut found = None;
         SCENE.kind.visit("", &mut |known, key| {
             if known == path && found.is_none() {

@@ -18,7 +18,7 @@ pub struct ParameterError {
 }
 
 /// One condition on a parameter: name, value, whether it holds, and in words.
-type Condition = (&'static str, f64, bool, String);
+type SpotCondition = (&'static str, f64, bool, String);
 
 impl Parameters {
     /// Finds the first invalid parameter.
@@ -41,7 +41,7 @@ impl Parameters {
         first_broken(self.conditions_on_the_box())
     }
 
-    fn conditions_on_the_box(&self) -> Vec<Condition> {
+    fn conditions_on_the_box(&self) -> Vec<SpotCondition> {
         let d = self.diameter;
         vec![
             finite_above("diameter", d, 0.0),
@@ -50,7 +50,7 @@ impl Parameters {
         ]
     }
 
-    fn conditions_on_the_opening(&self) -> Vec<Condition> {
+    fn conditions_on_the_opening(&self) -> Vec<SpotCondition> {
         let d = self.diameter;
         let (wide, deep) = (self.half_width, self.half_depth);
         let radius = self.spot_radius;
@@ -72,7 +72,7 @@ impl Parameters {
         ]
     }
 
-    fn conditions_on_spots(&self) -> Vec<Condition> {
+    fn conditions_on_spots(&self) -> Vec<SpotCondition> {
         let d = self.diameter;
         let [x, y, z] = self.step;
         let (insertion, moves) = (self.insertion_rate, self.move_rate);
@@ -105,7 +105,7 @@ impl Parameters {
         ]
     }
 
-    fn conditions_on_modes(&self) -> Vec<Condition> {
+    fn conditions_on_modes(&self) -> Vec<SpotCondition> {
         let mut all = Vec::new();
         if let Relaxation::AtRandom { ratio }
         | Relaxation::Counted { ratio }
@@ -132,7 +132,7 @@ impl Parameters {
 }
 
 /// An error for the first condition that does not hold.
-fn first_broken(conditions: impl IntoIterator<Item = Condition>) -> Result<(), ParameterError> {
+fn first_broken(conditions: impl IntoIterator<Item = SpotCondition>) -> Result<(), ParameterError> {
     let mut conditions = conditions.into_iter();
     match conditions.find(|(_, _, holds, _)| !holds) {
         None => Ok(()),
@@ -144,17 +144,17 @@ fn first_broken(conditions: impl IntoIterator<Item = Condition>) -> Result<(), P
     }
 }
 
-fn finite_above(name: &'static str, value: f64, limit: f64) -> Condition {
+fn finite_above(name: &'static str, value: f64, limit: f64) -> SpotCondition {
     let holds = value.is_finite() && value > limit;
     (name, value, holds, format!("finite and above {limit}"))
 }
 
-fn at_least(name: &'static str, value: f64, limit: f64) -> Condition {
+fn at_least(name: &'static str, value: f64, limit: f64) -> SpotCondition {
     let holds = value.is_finite() && value >= limit;
     (name, value, holds, format!("finite and at least {limit}"))
 }
 
-fn at_most(name: &'static str, value: f64, limit: f64, what: &str) -> Condition {
+fn at_most(name: &'static str, value: f64, limit: f64, what: &str) -> SpotCondition {
     (
         name,
         value,

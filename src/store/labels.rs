@@ -96,15 +96,24 @@ enum Cell<'a> {
     Word(&'a str),
 }
 
-/// Reads a table of labels. Variants are in the order in which it names them first.
+/// Reads a table of labels of a family that needs no rules. Variants are in the order in which it
+/// names them first.
 ///
 /// # Errors
 /// [`StoreError::Read`], with the line at fault.
 pub fn read_labels(path: &Path) -> Result<LabelTable, StoreError> {
+    read_labels_of(path, None)
+}
+
+/// Reads a table of labels: of the family `own`, or of one that needs no rules.
+///
+/// # Errors
+/// [`StoreError::Read`], with the line at fault.
+pub fn read_labels_of(path: &Path, own: Option<&'static Family>) -> Result<LabelTable, StoreError> {
     let content = text::read(path).map_err(|error| StoreError::reading(path, error))?;
     let mut reader = csv::Reader::from_reader(content.as_bytes());
     let header = reader.headers().map_err(|error| malformed(path, &error))?;
-    let header = read_header(header).map_err(|reason| StoreError::text(path, 1, reason))?;
+    let header = read_header(header, own).map_err(|reason| StoreError::text(path, 1, reason))?;
     let LabelColumns { family, axes, .. } = &header;
     let names = columns(family, axes, header.has_steady);
     let mut variants = Vec::new();
@@ -156,7 +165,10 @@ fn columns(family: &Family, axes: &[String], has_steady: bool) -> Vec<String> {
 }
 
 /// The family whose measures the header line names, and the axes.
-fn read_header(header: &StringRecord) -> Result<LabelColumns, String> {
+fn read_header(
+    header: &StringRecord,
+    own: Option<&'static Family>,
+) -> Result<LabelColumns, String> {
     let read = |family: &'static Family, has_steady: bool| {
         let others = columns(family, &[], has_steady).len();
         let axes = header.len().checked_sub(others)?;
@@ -169,7 +181,7 @@ fn read_header(header: &StringRecord) -> Result<LabelColumns, String> {
             has_steady,
         })
     };
-    let mut families = FAMILIES.into_iter();
+    let mut families = own.into_iter().chain(FAMILIES);
     let either = |family| read(family, false).or_else(|| read(family, true));
     families
         .find_map(either)

@@ -31,7 +31,7 @@ pub use export::{
     write_vtk, write_xyz,
 };
 pub use import::read_states;
-pub use labels::{read_labels, write_labels, write_points};
+pub use labels::{read_labels, read_labels_of, write_labels, write_points};
 pub use lease::{Holder, Lease, Tenure};
 pub use own::is_own_file;
 pub use process::ProcessIdentity;

@@ -2,7 +2,7 @@
 
 use super::plan::standing;
 use super::{Job, Refining, Standing, Sweep, read_failures};
-use crate::classify::LabelRow;
+use crate::classify::{LabelRow, LabelTable};
 use crate::grid::Axis;
 use crate::record::RunRecord;
 use crate::refusal::Refusal;
@@ -129,9 +129,7 @@ impl Folder {
 
     /// The labels that count without records, by the identities of their runs.
     pub(super) fn kept_labels(&self) -> HashMap<String, LabelRow> {
-        let table = self
-            .keeps_labels
-            .then(|| store::read_labels(&self.labels()));
+        let table = self.keeps_labels.then(|| self.read_labels());
         let rows = table.and_then(Result::ok).map(|table| table.rows);
         let rows = rows.unwrap_or_default().into_iter();
         rows.map(|row| (row.id.clone(), row)).collect()
@@ -297,6 +295,15 @@ impl Folder {
     /// The table of labels, one row per job.
     pub fn labels(&self) -> PathBuf {
         self.root.join("labels.csv")
+    }
+
+    /// Reads the table of labels, as the sweep of the folder names them.
+    ///
+    /// # Errors
+    /// Those of [`store::read_labels`].
+    pub fn read_labels(&self) -> Result<LabelTable, StoreError> {
+        let family = self.read_sweep().ok().map(|sweep| sweep.family());
+        store::read_labels_of(&self.labels(), family)
     }
 
     /// The table of the runs of a study, one row per run.

@@ -1,7 +1,7 @@
 //! Labels every run of a results folder from its record.
 
 use super::{Folder, Job, PlotSettings, Sweep, work};
-use crate::classify::{self, ClassifyError, Family, Label, LabelRow, LabelTable, Sieves};
+use crate::classify::{self, ClassifyError, Label, LabelRow, LabelTable, Sieves};
 use crate::document::differing_keys;
 use crate::refusal::Refusal;
 use crate::scene::Scene;
@@ -46,7 +46,7 @@ impl Labelling {
         })?;
         let mut labelling = Self {
             table: LabelTable {
-                family: Family::of(&sweep.scene),
+                family: sweep.family(),
                 axes: sweep.axes.iter().map(|axis| axis.name.clone()).collect(),
                 variants: sweep.variants(),
                 rows: Vec::new(),
@@ -181,7 +181,7 @@ impl Labelling {
     pub fn replace(self, folder: &Folder) -> Result<Labelled, LabellingError> {
         let since = match folder.labels() {
             path if !path.exists() => Since::Nothing,
-            path => match store::read_labels(&path) {
+            _ => match folder.read_labels() {
                 Ok(before) => {
                     let gone = rows_only_in(&before, &self.table);
                     let is_lost = |row: &&&LabelRow| self.jobs.contains(&row.id);
@@ -217,7 +217,7 @@ pub fn refuse_to_lose_labels<'a>(
     kept: impl IntoIterator<Item = &'a str>,
 ) -> Result<(), LabellingError> {
     // A table that cannot be read need not be kept.
-    let Ok(table) = store::read_labels(&folder.labels()) else {
+    let Ok(table) = folder.read_labels() else {
         return Ok(());
     };
     let kept: HashSet<&str> = kept.into_iter().collect();

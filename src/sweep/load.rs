@@ -2,7 +2,7 @@
 
 use super::refining::RefineEntry;
 use super::{PlotSettings, Sweep};
-use crate::classify::{ClassifyError, Family, Sieves};
+use crate::classify::{ClassifyError, Family, LabelRule, MeasureRule, Rules, Sieves};
 use crate::document::{Document, LoadError, Problem, Schema, differing_keys, one_of, suggest};
 use crate::grid::{
     AxisEntry, PointScenes, SceneTree, SeedsEntry, VariantEntry, base_scene, check_axes,
@@ -48,6 +48,13 @@ pub(crate) struct SweepFile {
     /// Thresholds of the sieves, which label the runs.
     #[serde(default)]
     sieves: Sieves,
+    /// Labels by rules of the file, in place of those of the sieves: the first whose condition
+    /// holds is the run's.
+    #[serde(default)]
+    label: Vec<LabelRule>,
+    /// What is measured of each run besides, by rules of the file.
+    #[serde(default)]
+    measure: Vec<MeasureRule>,
     /// What the phase diagram shows.
     #[serde(default)]
     plot: PlotSettings,
@@ -111,7 +118,13 @@ pub(crate) fn of_document(document: &Document) -> Result<Sweep, LoadError> {
         seeds,
         refine: None,
         study: None,
-        sieves: file.sieves,
+        sieves: Sieves {
+            rules: Rules {
+                labels: file.label,
+                measures: file.measure,
+            },
+            ..file.sieves
+        },
         plot: file.plot,
     };
     if file.axis.is_empty() && file.variant.is_empty() && file.seeds.is_none() {
@@ -135,7 +148,16 @@ pub(crate) fn of_document(document: &Document) -> Result<Sweep, LoadError> {
 /// Sieves must be those of the scene's family, and the spout sieve reads counts that the scene must
 /// have asked for.
 fn check_sieves(sweep: &Sweep, tree: &Value, problems: &mut Vec<Problem>) {
+    problems.extend(sweep.sieves.rules.problems(&sweep.scene));
     let family = Family::of(&sweep.scene);
+    let has_labels = !sweep.sieves.rules.labels.is_empty();
+    if has_labels && tree.get("sieves").is_some() {
+        let problem = Problem::new(
+            "sieves",
+            "the labels of this file are those of its [[label]]",
+        );
+        problems.push(problem.help("remove [sieves], or [[label]]").at_key());
+    }
     let given = tree["sieves"].as_object().into_iter().flatten();
     let own: Vec<&str> = family.sieves.iter().map(|sieve| sieve.name).collect();
     for (name, _) in given.filter(|(name, _)| !own.contains(&name.as_str())) {

@@ -51,7 +51,7 @@ pub use status::{Claimed, Status, UnderWay};
 pub use study::StudyRuns;
 pub(crate) use study::{RunScenes, fit_frames, output_of_balance};
 
-use crate::classify::Sieves;
+use crate::classify::{Family, Sieves};
 use crate::grid::{Axis, Variant, variant_at};
 use crate::refine::Settings;
 use crate::scene::{Scene, Units};
@@ -84,6 +84,11 @@ pub struct Sweep {
 }
 
 impl Sweep {
+    /// The family of its runs, with the rules of the file.
+    pub fn family(&self) -> &'static Family {
+        self.sieves.family(&self.scene)
+    }
+
     /// The sweep of just one scene.
     pub fn of_scene(scene: Scene) -> Self {
         Self {

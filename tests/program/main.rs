@@ -34,6 +34,7 @@ mod records;
 mod refine;
 mod resume;
 mod rooms;
+mod rule;
 mod scene_files;
 #[path = "../scenes/mod.rs"]
 mod scenes;

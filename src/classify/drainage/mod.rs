@@ -32,6 +32,7 @@ pub static DRAINAGE: Family = Family {
     takes: |scene| scene.tank.as_ref().and_then(Tank::opening).is_some(),
     check: |_, _| Ok(()),
     judge,
+    rules: None,
 };
 
 impl Label {

@@ -39,6 +39,7 @@ pub static SILO: Family = Family {
         None => Err(ClassifyError::NoOutlet),
     },
     judge,
+    rules: None,
 };
 
 /// The first sieve that says yes decides.

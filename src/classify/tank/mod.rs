@@ -44,6 +44,7 @@ pub static TANK: Family = Family {
         run::energy_scale(scene).map(|_| ())
     },
     judge,
+    rules: None,
 };
 
 /// The shortest steady part of a run must hold the window of every sieve.

@@ -207,6 +207,7 @@ impl Answer {
         arguments: &Arguments,
         console: &Console,
     ) -> Result<(), Failure> {
+        let found = Folder::find(dir)?;
         for name in &arguments.figure {
             match plot::figures().iter().find(|known| known.name == name) {
                 Some(figure) if figure.is_of_sweep() => {}
@@ -217,6 +218,7 @@ impl Answer {
                         dir.display()
                     )));
                 }
+                _ if found.iter().any(|folder| is_of_rules(name, folder)) => {}
                 _ => {
                     return Err(Failure::refused(format_args!(
                         "there is no figure `{name}`; `phase plot --list` lists all figures"
@@ -226,7 +228,6 @@ impl Answer {
         }
         let points = arguments.points.iter().map(|point| parse_point(point));
         let points: Vec<Selection> = points.collect::<Result<_, _>>()?;
-        let found = Folder::find(dir)?;
         let several = found.len() > 1;
         self.folders = folders::go_through(dir, found, console, |folder| {
             let place = match (&arguments.out, folder.root().file_name()) {
@@ -283,4 +284,13 @@ fn name_all(
     let reasons = failures.into_iter().map(|failure| failure.message);
     let reasons: Vec<String> = reasons.inspect(|reason| console.error(reason)).collect();
     first.map_or(Ok(reasons), Err)
+}
+
+/// Whether that is the map of a measure that the file of a folder states itself.
+fn is_of_rules(name: &str, folder: &Folder) -> bool {
+    let sweep = folder.read_sweep();
+    sweep.is_ok_and(|sweep| {
+        let mut measures = sweep.family().measures();
+        measures.any(|measure| measure.name.replace('_', "-") == *name)
+    })
 }

@@ -10,9 +10,8 @@ use crate::cli::runner::{Runner, RunsMade};
 use crate::cli::values;
 use crate::cli::{figures, labels};
 use crate::cli::{folders, format, interrupt, overlaps, refined, time_step};
-use phase::classify::Family;
 use phase::resume::DEFAULT_INTERVAL;
-use phase::store::{self, Holder, Lease};
+use phase::store::{Holder, Lease};
 use phase::sweep::{
     Access, Folder, Job, NextJobs, Plan, Shard, Sweep, differing_keys, refuse_to_lose_labels,
 };
@@ -256,7 +255,7 @@ fn check_kept_labels(folder: &Folder, sweep: &Sweep) -> Result<(), Failure> {
     if !folder.labels().exists() {
         return Ok(());
     }
-    store::read_labels(&folder.labels()).map_err(|error| {
+    folder.read_labels().map_err(|error| {
         Failure::refused(format_args!(
             "{error}\n--keep-labels needs a readable labels.csv; repair the file or drop \
              --keep-labels"
@@ -294,7 +293,7 @@ fn refuse_foreign(folder: &Folder, sweep: &Sweep, arguments: &Arguments) -> Resu
             .flat_map(|_| ["refined.csv", "borders.csv"]);
         names.extend(refined.map(PathBuf::from));
         if !arguments.no_plot && !sweep.axes.is_empty() {
-            let figures = figures::figures_of_sweep(sweep, Family::of(&sweep.scene));
+            let figures = figures::figures_of_sweep(sweep, sweep.family());
             names.extend(folders::files_of_figures(figures));
         }
     }

@@ -46,16 +46,25 @@ pub struct Measured {
 }
 
 impl Measurement {
+    /// The family of runs of a scene, whose labels they have.
+    pub(super) fn family(&self, scene: &Scene) -> &'static Family {
+        match self {
+            Self::States(sieves) => sieves.family(scene),
+            Self::Motion(_) => Family::of(scene),
+            Self::Numerics(_) => &NUMERICS,
+        }
+    }
+
     /// What is measured of runs of a scene.
     pub fn quantities(&self, scene: &Scene) -> Vec<Quantity> {
         match self {
-            Self::States(_) => {
+            Self::States(sieves) => {
                 let quantity = |name: &str, unit| Quantity {
                     name: name.to_owned(),
                     unit,
                     time: None,
                 };
-                match order_parameters(Family::of(scene)) {
+                match order_parameters(sieves.family(scene)) {
                     measures if measures.is_empty() => {
                         let moments = moments(scene).into_iter();
                         moments.map(|(name, unit)| quantity(&name, unit)).collect()

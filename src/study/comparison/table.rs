@@ -6,7 +6,7 @@
 //! settings share has a row for each.
 
 use super::{Comparison, Measured, Measurement, Quantity};
-use crate::classify::{FAMILIES, Label, NUMERICS};
+use crate::classify::{FAMILIES, Family, Label};
 use crate::document::text;
 use crate::grid::Axis;
 use crate::record::RunRecord;
@@ -106,13 +106,14 @@ impl RunTable {
                           --force";
             return Err(StoreError::text(path, 1, reason));
         }
+        let family = comparison.measurement.family(&comparison.sweep.scene);
         let measured = comparison.measurement.digest();
         let ids = comparison.jobs.iter().map(|job| job.id.as_str());
         let places: HashMap<&str, usize> = ids.enumerate().map(|(at, id)| (id, at)).collect();
         for line in file.records() {
             let line = line.map_err(fail)?;
             let number = line.position().map_or(1, csv::Position::line);
-            let (mut row, how) = parse(&line, axes.len(), quantities.len()).ok_or_else(|| {
+            let (mut row, how) = parse(&line, axes.len(), quantities.len(), family).ok_or_else(|| {
                 let reason = "this is no row of a study; remove the line, or delete the file: its \
                               rows are made again from records, or by runs";
                 StoreError::text(path, number, reason)
@@ -225,10 +226,15 @@ impl RunRow {
 }
 
 /// The row of a line, and how it was measured; none if it is no row.
-fn parse(line: &csv::StringRecord, axes: usize, quantities: usize) -> Option<(RunRow, String)> {
+fn parse(
+    line: &csv::StringRecord,
+    axes: usize,
+    quantities: usize,
+    family: &Family,
+) -> Option<(RunRow, String)> {
     let cells: Vec<&str> = line.iter().skip(1 + axes).collect();
     let (_seed, label) = (cells.first()?.parse::<u64>().ok()?, cells.get(1)?);
-    let mut families = FAMILIES.into_iter().chain([&NUMERICS]);
+    let mut families = std::iter::once(family).chain(FAMILIES);
     let label = families.find_map(|family| family.label(label))?;
     let values = cells
         .get(2..2 + quantities)?

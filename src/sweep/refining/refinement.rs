@@ -2,7 +2,7 @@
 
 use super::learnt::{FAILED, Learnt};
 use super::{Refining, ends_before};
-use crate::classify::{Family, LabelTable};
+use crate::classify::LabelTable;
 use crate::grid::PointError;
 use crate::refine::{
     Finish, Gap, Observations, RefineError, Round, Rounds, Settings, Trial, widths,
@@ -239,7 +239,7 @@ impl Known {
         Self {
             runs: Observations::new(),
             table: LabelTable {
-                family: Family::of(&sweep.scene),
+                family: sweep.family(),
                 axes: sweep.axes.iter().map(|axis| axis.name.clone()).collect(),
                 variants: sweep.variants(),
                 rows: Vec::new(),

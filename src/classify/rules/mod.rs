@@ -1,0 +1,146 @@
+//! Labels and measures that a file states itself, as rules over the columns of a run.
+//!
+//! A file with labels of its own is labelled by these alone; measures are added to the sieves'. Both
+//! make a [`Family`] of their own.
+
+mod entry;
+mod family;
+mod judge;
+mod names;
+mod window;
+
+pub use entry::{LabelRule, MeasureRule};
+pub(super) use family::{PreparedRules, family};
+pub use window::RuleWindow;
+
+use super::{FAMILIES, Family, Label};
+use crate::document::Problem;
+use crate::rule::{Condition, Expression, ExpressionError, Number};
+use crate::scene::Scene;
+use names::SceneNames;
+use serde::{Deserialize, Serialize};
+
+/// The rules of a file, which label and measure its runs.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Rules {
+    /// The labels: the first whose condition holds is the run's.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub labels: Vec<LabelRule>,
+    /// What is measured besides.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub measures: Vec<MeasureRule>,
+}
+
+/// Most labels, and most measures.
+const MOST: usize = 40;
+
+impl Rules {
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.labels.is_empty() && self.measures.is_empty()
+    }
+
+    /// All that is wrong with them for runs of a scene, by the keys of a sweep file.
+    pub(crate) fn problems(&self, scene: &Scene) -> Vec<Problem> {
+        let mut problems = Vec::new();
+        for (key, number) in [
+            ("label", self.labels.len()),
+            ("measure", self.measures.len()),
+        ] {
+            if number > MOST {
+                let message = format!("{number} are too many");
+                let help = format!("state at most {MOST}");
+                problems.push(Problem::new(format!("{key}[{MOST}]"), message).help(help));
+                return problems;
+            }
+        }
+        for (place, rule) in self.labels.iter().enumerate() {
+            let path = format!("label[{place}]");
+            problems.extend(self.problem_of_label(place, &path));
+            problems.extend(rule.over.as_ref().and_then(|it| {
+                let path = format!("{path}.over");
+                it.check(&path, scene).err()
+            }));
+            if rule
+                .color
+                .as_ref()
+                .is_some_and(|it| entry::color(it).is_none())
+            {
+                let problem = Problem::new(format!("{path}.color"), "this is no colour");
+                problems.push(problem.help("write it as `\"#b03a2e\"`: red, green and blue"));
+            }
+            let checked = condition(&rule.when, scene);
+            problems.extend(
+                checked
+                    .err()
+                    .map(|it| pointed(&format!("{path}.when"), &rule.when, it)),
+            );
+        }
+        for (place, rule) in self.measures.iter().enumerate() {
+            let path = format!("measure[{place}]");
+            problems.extend(self.problem_of_measure(place, &path, scene));
+            problems.extend(rule.over.as_ref().and_then(|it| {
+                let path = format!("{path}.over");
+                it.check(&path, scene).err()
+            }));
+            let checked = number(&rule.value, scene);
+            let path = format!("{path}.value");
+            problems.extend(checked.err().map(|it| pointed(&path, &rule.value, it)));
+        }
+        problems
+    }
+
+    /// What is wrong with the name of a label.
+    fn problem_of_label(&self, place: usize, path: &str) -> Option<Problem> {
+        let (name, path) = (&self.labels[place].name, format!("{path}.name"));
+        if let Err(problem) = entry::check_name(&path, name, '-') {
+            return Some(problem);
+        }
+        let is_built_in = FAMILIES.iter().any(|it| it.label(name).is_some());
+        if is_built_in || name == Label::OTHER.name {
+            let message = format!("`{name}` is a label of the program");
+            return Some(Problem::new(path, message).help("use another name"));
+        }
+        let is_twice = self.labels[..place].iter().any(|it| it.name == *name);
+        is_twice.then(|| {
+            let message = format!("another label has the name `{name}` already");
+            Problem::new(path, message).help("join the conditions with `or`")
+        })
+    }
+
+    /// What is wrong with the name of a measure.
+    fn problem_of_measure(&self, place: usize, path: &str, scene: &Scene) -> Option<Problem> {
+        let (name, path) = (&self.measures[place].name, format!("{path}.name"));
+        if let Err(problem) = entry::check_name(&path, name, '_') {
+            return Some(problem);
+        }
+        let built_in = Family::of(scene).measures().map(|it| it.name.to_owned());
+        let of_labels = self.labels.iter().flat_map(family::columns_of);
+        let mut taken = built_in
+            .chain(of_labels)
+            .chain(family::RESERVED.map(str::to_owned));
+        let is_twice = self.measures[..place].iter().any(|it| it.name == *name);
+        (is_twice || taken.any(|it| it == *name)).then(|| {
+            let message = format!("the table of labels has a column `{name}` already");
+            Problem::new(path, message).help("use another name")
+        })
+    }
+}
+
+/// An expression as a condition on runs of a scene.
+fn condition(text: &str, scene: &Scene) -> Result<Condition, ExpressionError> {
+    Expression::parse(text)?.condition(&SceneNames::new(scene))
+}
+
+/// An expression as a number of runs of a scene.
+fn number(text: &str, scene: &Scene) -> Result<Number, ExpressionError> {
+    Expression::parse(text)?.number(&SceneNames::new(scene))
+}
+
+/// The problem of an expression in a file.
+fn pointed(path: &str, _text: &str, error: ExpressionError) -> Problem {
+    Problem::new(path, error.message)
+        .help(error.help)
+        .part(error.span)
+}

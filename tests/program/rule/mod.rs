@@ -1,0 +1,12 @@
+//! Rules: their text, their errors, their units and their values.
+
+mod closed_forms;
+mod evidence;
+mod identity;
+mod limits;
+mod reductions;
+mod refused;
+mod run;
+mod sweeps;
+mod trees;
+mod units;
