@@ -231,17 +231,9 @@ impl<'a> Handover<'a> {
 
     /// The command of a shell that runs the file, with so many cores.
     fn run(&self) -> String {
-        let Self {
-            program,
-            command,
-            file,
-            out,
-            arguments,
-            ..
-        } = self;
         format!(
-            "{program} {command} {file} --out {out} --jobs {}",
-            arguments.jobs
+            "{} {} {} --out {} --jobs {}",
+            self.program, self.command, self.file, self.out, self.arguments.jobs
         )
     }
 

@@ -35,8 +35,9 @@ pub trait Backend: Sync {
     /// - It may be called again with the jobs that another process had begun and did not end.
     ///
     /// Another program gets a job as text: `toml::to_string(&job.scene())` is a scene file, which
-    /// `phase run` takes, unless a study of stability chose a step above its limit. Child processes get the Ctrl-C of a terminal, too; one that the backend
-    /// alone may end needs a process group of its own (`CommandExt::process_group(0)`).
+    /// `phase run` takes, unless a study of stability chose a step above its limit. Child processes
+    /// get the Ctrl-C of a terminal, too; one that the backend alone may end needs a process group
+    /// of its own (`CommandExt::process_group(0)`).
     ///
     /// A panic ends the batch like an error, with its message in the report; one that should fail
     /// just its job is caught by the backend.

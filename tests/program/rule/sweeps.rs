@@ -165,7 +165,7 @@ fn bad_rules_are_refused_with_their_place() {
     for (good, bad, message) in [
         (
             "mean(rotation) > 0.5[rad/s]",
-            "mean(rotaton) > 0.5",
+            "mean(rotations) > 0.5",
             "write `rotation`",
         ),
         (
@@ -218,7 +218,11 @@ fn bad_rules_are_refused_with_their_place() {
             "[sieves.fluid]\n[[measure]]",
             "remove [sieves], or [[label]]",
         ),
-        ("value = \"trend", "valu = \"trend", "valu"),
+        (
+            "value = \"trend",
+            "values = \"trend",
+            "did you mean `value`?",
+        ),
     ] {
         let rules = text(RULES);
         assert!(rules.contains(good), "{good}");
