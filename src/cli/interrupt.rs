@@ -11,8 +11,8 @@ static STOP: AtomicBool = AtomicBool::new(false);
 
 /// From now on the first signal sets the flag that is returned; another Ctrl-C ends the program at
 /// once. Requests to end may come twice: Slurm sends one to all processes of a task, and the script
-/// of the task hands its own on. A signal that was ignored when the program started stays ignored: `nohup` ignores the
-/// hang-up, and a shell the Ctrl-C of what it runs in the background.
+/// of the task hands its own on. A signal that was ignored when the program started stays ignored:
+/// `nohup` ignores the hang-up, and a shell the Ctrl-C of what it runs in the background.
 pub(crate) fn stop_on_signal(console: &Console) -> Result<&'static AtomicBool, Failure> {
     let speaker = Console::new(console.is_quiet(), console.is_verbose(), false);
     let ignored = ignored_signals();

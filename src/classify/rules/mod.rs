@@ -1,7 +1,7 @@
 //! Labels and measures that a file states itself, as rules over the columns of a run.
 //!
-//! A file with labels of its own is labelled by these alone; measures are added to the sieves'. Both
-//! make a [`Family`] of their own.
+//! A file with labels of its own is labelled by these alone; measures are added to those of the
+//! sieves. Both make a [`Family`] of their own.
 
 mod entry;
 mod family;

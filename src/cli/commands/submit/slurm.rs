@@ -37,8 +37,8 @@ pub(super) fn write(order: &Handover<'_>) -> Result<Submission, Failure> {
          # them. `phase submit` writes this file again.\n\
          cd {here} || exit\n\
          \n\
-         # Runs leave a checkpoint when the task is to end. Before its time is up it goes back into\n\
-         # the queue; one that is preempted is put there by Slurm, and one that is cancelled is not.\n\
+         # Runs leave a checkpoint when the task is to end. Before its time is up it goes back\n\
+         # into the queue. Slurm puts one there that is preempted, and none that is cancelled.\n\
          leave() {{\n    \
              kill -TERM $work 2>/dev/null\n    \
              wait $work\n\
