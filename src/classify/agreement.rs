@@ -48,12 +48,12 @@ impl Agreement {
     /// # Errors
     /// If the tables differ in their families of scenes, their axes, or all points.
     pub fn of(one: &LabelTable, other: &LabelTable) -> Result<Self, String> {
-        if one.family != other.family {
+        if !one.family.has_columns_of(other.family) {
             let names = [one.family.name, other.family.name];
-            return Err(format!(
-                "one is of a {}, the other of a {}",
-                names[0], names[1]
-            ));
+            return Err(match names[0] == names[1] {
+                true => "their files state different labels or measures".to_owned(),
+                false => format!("one is of a {}, the other of a {}", names[0], names[1]),
+            });
         }
         if one.axes != other.axes {
             let axes = [&one.axes, &other.axes].map(|axes| axes.join(", "));

@@ -53,6 +53,12 @@ impl Family {
         self.rules.is_some_and(|rules| rules.extends(other))
     }
 
+    /// Whether it has the labels and measures of another one, whatever the thresholds of its rules.
+    pub(super) fn has_columns_of(&self, other: &Self) -> bool {
+        let names = |family: &Self| family.measures().map(|it| it.name);
+        self.name == other.name && self.labels() == other.labels() && names(self).eq(names(other))
+    }
+
     /// The labels that its runs can have, in the order of their codes.
     pub fn labels(&self) -> Vec<Label> {
         let of_sieves = self.sieves.iter().flat_map(|sieve| sieve.labels);

@@ -288,9 +288,6 @@ fn name_all(
 
 /// Whether that is the map of a measure that the file of a folder states itself.
 fn is_of_rules(name: &str, folder: &Folder) -> bool {
-    let sweep = folder.read_sweep();
-    sweep.is_ok_and(|sweep| {
-        let mut measures = sweep.family().measures();
-        measures.any(|measure| measure.name.replace('_', "-") == *name)
-    })
+    let (sweep, name) = (folder.read_sweep(), name.replace('-', "_"));
+    sweep.is_ok_and(|sweep| sweep.family().measures().any(|it| it.name == name))
 }

@@ -181,10 +181,7 @@ fn submit(commands: &[Vec<String>], console: &Console) -> Result<Vec<String>, Fa
             return Err(Failure::failed(format_args!("{line}: {}", message.trim())));
         }
         let name = String::from_utf8_lossy(&output.stdout).trim().to_owned();
-        let what = match names.len() {
-            0 => "submitted",
-            _ => "submitted what follows",
-        };
+        let what = ["submitted", "submitted what follows"][names.len().min(1)];
         console.result(format_args!("{what}: {name}"));
         // Federations add the name of the cluster.
         names.push(name.split(';').next().unwrap_or_default().to_owned());

@@ -145,6 +145,31 @@ fn measures_go_beside_the_sieves() {
         .code(0);
 }
 
+/// Folders with other thresholds are compared with a word, folders with other labels are not.
+#[test]
+fn folders_with_other_rules_are_told_apart() {
+    let place = Workplace::new();
+    let rules = |old: &str, new: &str| text(RULES).replacen(old, new, 1);
+    for (name, text) in [
+        ("one", text(RULES)),
+        ("moved", rules("> 0.5[rad/s]", "> 0.7")),
+        ("renamed", rules("\"turning-fast\"", "\"quick\"")),
+    ] {
+        place.write("tiny.toml", &text);
+        place
+            .phase(&["sweep", "tiny.toml", "--out", name, "--no-plot"])
+            .code(0);
+    }
+    place
+        .phase(&["compare", "one", "moved"])
+        .code(0)
+        .complains("the rules of their labels and measures differ");
+    place
+        .phase(&["compare", "one", "renamed"])
+        .code(2)
+        .complains("their files state different labels or measures");
+}
+
 /// Rounds follow the labels of rules.
 #[test]
 fn refined_sweeps_follow_rules() {

@@ -35,6 +35,15 @@ pub(super) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     for (letter, name) in ["A", "B"].iter().zip(&names) {
         console.result(format_args!("{letter}  {name}"));
     }
+    let rules = |path| {
+        Folder::new(path)
+            .read_sweep()
+            .ok()
+            .map(|it| it.sieves.rules)
+    };
+    if rules(one) != rules(other) {
+        console.note("the rules of their labels and measures differ");
+    }
     console.result(sentence(&agreement));
     let head = ["", "A", "B", "B - A"].map(str::to_owned);
     let lines = agreement.measures.iter().map(line);
