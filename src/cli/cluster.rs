@@ -61,12 +61,10 @@ impl Handed {
         let by_default = || folders::default_folder_of_study(study.name(), file);
         let folder = Folder::new(out.cloned().unwrap_or_else(by_default));
         let handed = Self::of_comparison(comparison, folder.clone(), workers)?;
-        let AnyStudy::Ablation(ablation) = &study else {
-            return Ok(handed);
+        let ablation = match &study {
+            AnyStudy::Ablation(it) if handed.next.missing.is_empty() => it,
+            _ => return Ok(handed),
         };
-        if !handed.next.missing.is_empty() {
-            return Ok(handed);
-        }
         let mut table = RunTable::read(comparison, &folder).map_err(Failure::refused)?;
         table.add_records(comparison, &folder, workers)?;
         match ablation.with_pairs(&table.rows)? {

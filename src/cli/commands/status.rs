@@ -51,13 +51,9 @@ impl FolderAnswer {
         let refining = folder.read_refining(&sweep)?;
         let jobs = sweep.jobs_so_far(refining.as_ref())?;
         let plan = Plan::sampled(folder, jobs, MOST_RECORDS, work::default_workers())?;
-        let plan = match sweep.study {
-            Some(_) => {
-                let known = RunTable::identities(folder);
-                plan.with_labels(|job| known.contains(&job.id))
-            }
-            None => plan,
-        };
+        let known = sweep.study.map(|_| RunTable::identities(folder));
+        let known = known.unwrap_or_default();
+        let plan = plan.with_labels(|job| known.contains(&job.id));
         let status = Status::of(folder, &sweep.axes, &plan)?;
         console.result(format_args!(
             "{}: {}",
