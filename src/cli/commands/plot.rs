@@ -207,7 +207,7 @@ impl Answer {
         arguments: &Arguments,
         console: &Console,
     ) -> Result<(), Failure> {
-        let found = Folder::find(dir)?;
+        let found = Folder::find(dir);
         for name in &arguments.figure {
             match plot::figures().iter().find(|known| known.name == name) {
                 Some(figure) if figure.is_of_sweep() => {}
@@ -218,7 +218,7 @@ impl Answer {
                         dir.display()
                     )));
                 }
-                _ if found.iter().any(|folder| is_of_rules(name, folder)) => {}
+                _ if found.iter().flatten().any(|it| is_of_rules(name, it)) => {}
                 _ => {
                     return Err(Failure::refused(format_args!(
                         "there is no figure `{name}`; `phase plot --list` lists all figures"
@@ -228,6 +228,7 @@ impl Answer {
         }
         let points = arguments.points.iter().map(|point| parse_point(point));
         let points: Vec<Selection> = points.collect::<Result<_, _>>()?;
+        let found = found?;
         let several = found.len() > 1;
         self.folders = folders::go_through(dir, found, console, |folder| {
             let place = match (&arguments.out, folder.root().file_name()) {
