@@ -33,7 +33,7 @@
 //! ];
 //! let error = Expression::parse(text).unwrap_err();
 //! assert_eq!(error.render(text), shown.join("\n"));
-//! # Ok::<(), rule::ExpressionError>(())
+//! # Ok::<(), phase::rule::ExpressionError>(())
 //! ```
 //!
 //! [`Expression::parse`] reads the text. [`Expression::condition`] and [`Expression::number`] check

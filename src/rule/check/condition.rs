@@ -8,9 +8,9 @@ use crate::rule::syntax::{Function, Operator, Term, TreePart};
 use crate::rule::unit::Unit;
 
 impl Checker {
-    /// The condition that `node` is.
-    pub(super) fn condition<S: Scope>(&self, node: &Term) -> Result<Test<S>, ExpressionError> {
-        match &node.part {
+    /// The condition that `term` is.
+    pub(super) fn condition<S: Scope>(&self, term: &Term) -> Result<Test<S>, ExpressionError> {
+        match &term.part {
             TreePart::Not(operand) => Ok(Test::Not(Box::new(self.condition(operand)?))),
             TreePart::Binary(Operator::And, left, right) => {
                 let [left, right] = self.conditions(left, right)?;
@@ -23,21 +23,21 @@ impl Checker {
             TreePart::Binary(Operator::Compare(order), left, right) => {
                 let typed = [self.number(left)?, self.number(right)?];
                 let unit =
-                    self.common_unit(node, [left, right], typed.each_ref().map(|it| it.unit))?;
+                    self.common_unit(term, [left, right], typed.each_ref().map(|it| it.unit))?;
                 let [value, threshold] = typed.map(|it| it.formula);
                 Ok(Test::Comparison(Comparison {
                     order: *order,
                     value,
                     threshold,
                     unit: unit.unwrap_or(Unit::ONE),
-                    text: node.to_string(),
+                    text: term.to_string(),
                 }))
             }
             TreePart::Number(..)
             | TreePart::Name(_)
             | TreePart::Negative(_)
             | TreePart::Binary(Operator::Calculate(_) | Operator::Power, ..)
-            | TreePart::Call(..) => Err(refusals::condition_needed(node)),
+            | TreePart::Call(..) => Err(refusals::condition_needed(term)),
         }
     }
 
@@ -55,11 +55,11 @@ impl Checker {
     /// The condition whose share of frames is asked for.
     pub(super) fn condition_of_share<S: Scope>(
         &self,
-        node: &Term,
+        term: &Term,
     ) -> Result<Test<S>, ExpressionError> {
-        match node.part.is_condition() {
-            true => self.condition(node),
-            false => Err(refusals::no_condition_of(Function::Share, node)),
+        match term.part.is_condition() {
+            true => self.condition(term),
+            false => Err(refusals::no_condition_of(Function::Share, term)),
         }
     }
 }

@@ -7,11 +7,11 @@ use crate::rule::syntax::{Operator, Term, TreePart};
 /// Largest exponent.
 const LARGEST: f64 = 100.0;
 
-/// The exponent that `node` is.
-pub(super) fn constant(node: &Term) -> Result<f64, ExpressionError> {
+/// The exponent that `term` is.
+pub(super) fn constant(term: &Term) -> Result<f64, ExpressionError> {
     let refuse =
-        |message: String, help: &str| Err(ExpressionError::new(message, node.span.clone(), help));
-    let exponent = value(node)?;
+        |message: String, help: &str| Err(ExpressionError::new(message, term.span.clone(), help));
+    let exponent = value(term)?;
     if !(exponent.abs() <= LARGEST) {
         let message = format!("the exponent {} is too large", number(exponent));
         return refuse(message, "exponents are from -100 to 100");
@@ -30,8 +30,8 @@ pub(super) fn constant(node: &Term) -> Result<f64, ExpressionError> {
 }
 
 /// The value of what consists of numbers only.
-fn value(node: &Term) -> Result<f64, ExpressionError> {
-    match &node.part {
+fn value(term: &Term) -> Result<f64, ExpressionError> {
+    match &term.part {
         TreePart::Number(value, None) => Ok(*value),
         TreePart::Negative(operand) => Ok(-value(operand)?),
         TreePart::Binary(Operator::Calculate(arithmetic), left, right) => {
@@ -42,7 +42,7 @@ fn value(node: &Term) -> Result<f64, ExpressionError> {
         }
         TreePart::Number(_, Some(_)) => {
             let help = "write a pure number without brackets";
-            let span = node.span.clone();
+            let span = term.span.clone();
             Err(ExpressionError::new("an exponent has no unit", span, help))
         }
         TreePart::Name(_)
@@ -51,7 +51,7 @@ fn value(node: &Term) -> Result<f64, ExpressionError> {
         | TreePart::Call(..) => {
             let message = "an exponent is a number that stands here";
             let help = "write a whole or half number, such as in x^2 or x^0.5";
-            Err(ExpressionError::new(message, node.span.clone(), help))
+            Err(ExpressionError::new(message, term.span.clone(), help))
         }
     }
 }

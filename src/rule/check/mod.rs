@@ -22,28 +22,28 @@ pub(in crate::rule) const TIME: &str = "time";
 const NAMES_SHOWN: usize = 8;
 
 /// A number with its unit; a bare number has none yet, and takes the one that its place needs.
-pub(in crate::rule) struct Typed<SlashPlace> {
-    formula: Formula<SlashPlace>,
+pub(in crate::rule) struct Typed<Slot> {
+    formula: Formula<Slot>,
     unit: Option<Unit>,
 }
 
-/// The condition that `node` is, and the names that it needs.
+/// The condition that `term` is, and the names that it needs.
 pub(in crate::rule) fn condition(
-    node: &Term,
+    term: &Term,
     names: &dyn Names,
 ) -> Result<(Test<Reduction>, Needs), ExpressionError> {
-    let checker = Checker::new(node, names)?;
-    let test = checker.condition(node)?;
+    let checker = Checker::new(term, names)?;
+    let test = checker.condition(term)?;
     Ok((test, checker.needs()))
 }
 
-/// The number that `node` is, its unit, and the names that it needs.
+/// The number that `term` is, its unit, and the names that it needs.
 pub(in crate::rule) fn number(
-    node: &Term,
+    term: &Term,
     names: &dyn Names,
 ) -> Result<(Formula<Reduction>, Unit, Needs), ExpressionError> {
-    let checker = Checker::new(node, names)?;
-    let number = checker.number(node)?;
+    let checker = Checker::new(term, names)?;
+    let number = checker.number(term)?;
     let unit = number.unit.unwrap_or(Unit::ONE);
     Ok((number.formula, unit, checker.needs()))
 }
@@ -56,29 +56,29 @@ struct Checker {
 
 /// What a name stands for: its index among the columns or keys that are needed, and its unit.
 enum Meaning {
-    ColumnPlace(usize, Unit),
+    Column(usize, Unit),
     Key(usize, Unit),
 }
 
 impl Checker {
     /// Looks all names up.
-    fn new(node: &Term, names: &dyn Names) -> Result<Self, ExpressionError> {
+    fn new(term: &Term, names: &dyn Names) -> Result<Self, ExpressionError> {
         let mut checker = Self {
             columns: BTreeMap::new(),
             keys: BTreeMap::new(),
         };
         let mut unknown = None;
-        node.names(&mut |name, node| {
+        term.names(&mut |name, term| {
             if let Some(unit) = column(name, names) {
                 checker.columns.insert(name.to_owned(), unit);
             } else if let Some(unit) = names.key(name) {
                 checker.keys.insert(name.to_owned(), unit);
             } else {
-                unknown = unknown.or(Some((name, node)));
+                unknown = unknown.or(Some((name, term)));
             }
         });
         match unknown {
-            Some((name, node)) => Err(unknown_name(name, node, names)),
+            Some((name, term)) => Err(unknown_name(name, term, names)),
             None => Ok(checker),
         }
     }
@@ -90,7 +90,7 @@ impl Checker {
             found.map(|(index, (_, unit))| (index, *unit))
         };
         match find(&self.columns) {
-            Some((index, unit)) => Some(Meaning::ColumnPlace(index, unit)),
+            Some((index, unit)) => Some(Meaning::Column(index, unit)),
             None => find(&self.keys).map(|(index, unit)| Meaning::Key(index, unit)),
         }
     }
@@ -111,8 +111,8 @@ fn column(name: &str, names: &dyn Names) -> Option<Unit> {
     }
 }
 
-fn unknown_name(name: &str, node: &Term, names: &dyn Names) -> ExpressionError {
-    let span = node.mark.clone();
+fn unknown_name(name: &str, term: &Term, names: &dyn Names) -> ExpressionError {
+    let span = term.mark.clone();
     if let Some(function) = Function::of_name(name) {
         let message = format!("`{name}` is a function, whose values stand in parentheses");
         return ExpressionError::new(message, span, function.usage());

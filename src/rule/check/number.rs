@@ -7,15 +7,15 @@ use crate::rule::evaluate::Formula;
 use crate::rule::syntax::{Arithmetic, Function, Mathematics, Operator, Term, TreePart};
 
 impl Checker {
-    /// The number that `node` is.
-    pub(super) fn number<S: Scope>(&self, node: &Term) -> Result<Typed<S>, ExpressionError> {
-        let (formula, unit) = match &node.part {
+    /// The number that `term` is.
+    pub(super) fn number<S: Scope>(&self, term: &Term) -> Result<Typed<S>, ExpressionError> {
+        let (formula, unit) = match &term.part {
             TreePart::Number(value, unit) => {
                 (Formula::Number(*value), unit.as_ref().map(|it| it.unit))
             }
             TreePart::Name(name) => match self.meaning(name) {
-                Some(Meaning::ColumnPlace(index, unit)) => {
-                    (Formula::At(S::column(index, name, node)?), Some(unit))
+                Some(Meaning::Column(index, unit)) => {
+                    (Formula::At(S::column(index, name, term)?), Some(unit))
                 }
                 Some(Meaning::Key(index, unit)) => (Formula::Key(index), Some(unit)),
                 None => unreachable!("all names of the tree were looked up"),
@@ -25,24 +25,24 @@ impl Checker {
                 (Formula::Negative(Box::new(formula)), unit)
             }
             TreePart::Binary(Operator::Calculate(arithmetic), left, right) => {
-                return self.calculation(*arithmetic, left, right, node);
+                return self.calculation(*arithmetic, left, right, term);
             }
             TreePart::Binary(Operator::Power, base, exponent) => {
                 let base = self.number(base)?;
                 let exponent = exponent::constant(exponent)?;
-                let unit = self.unit_of_power(base.unit, exponent, node)?;
+                let unit = self.unit_of_power(base.unit, exponent, term)?;
                 (Formula::Power(Box::new(base.formula), exponent), unit)
             }
             TreePart::Call(Function::Of(function), arguments) => {
-                return self.function(*function, arguments, node);
+                return self.function(*function, arguments, term);
             }
             TreePart::Call(function, arguments) => {
-                let (reduction, unit) = S::reduction(self, *function, arguments, node)?;
+                let (reduction, unit) = S::reduction(self, *function, arguments, term)?;
                 (Formula::At(reduction), unit)
             }
             TreePart::Not(_)
             | TreePart::Binary(Operator::Or | Operator::And | Operator::Compare(_), ..) => {
-                return Err(refusals::number_needed(node));
+                return Err(refusals::number_needed(term));
             }
         };
         Ok(Typed { formula, unit })
@@ -52,11 +52,11 @@ impl Checker {
     pub(super) fn number_of<S: Scope>(
         &self,
         function: Function,
-        node: &Term,
+        term: &Term,
     ) -> Result<Typed<S>, ExpressionError> {
-        match node.part.is_condition() {
-            true => Err(refusals::no_number_of(function, node)),
-            false => self.number(node),
+        match term.part.is_condition() {
+            true => Err(refusals::no_number_of(function, term)),
+            false => self.number(term),
         }
     }
 
@@ -65,16 +65,16 @@ impl Checker {
         arithmetic: Arithmetic,
         left: &Term,
         right: &Term,
-        node: &Term,
+        term: &Term,
     ) -> Result<Typed<S>, ExpressionError> {
         let typed = [self.number(left)?, self.number(right)?];
         let units = typed.each_ref().map(|it: &Typed<S>| it.unit);
         let unit = match arithmetic {
             Arithmetic::Add | Arithmetic::Subtract => {
-                self.common_unit(node, [left, right], units)?
+                self.common_unit(term, [left, right], units)?
             }
             Arithmetic::Multiply | Arithmetic::Divide => {
-                self.unit_of_product(arithmetic, units, node)?
+                self.unit_of_product(arithmetic, units, term)?
             }
         };
         let [left, right] = typed.map(|it| Box::new(it.formula));
@@ -86,7 +86,7 @@ impl Checker {
         &self,
         function: Mathematics,
         arguments: &[Term],
-        node: &Term,
+        term: &Term,
     ) -> Result<Typed<S>, ExpressionError> {
         let numbers = arguments
             .iter()
@@ -95,9 +95,9 @@ impl Checker {
         let units: Vec<_> = numbers.iter().map(|it| it.unit).collect();
         let unit = match (arguments, units.as_slice()) {
             ([left, right], [one, other]) => {
-                self.common_unit(node, [left, right], [*one, *other])?
+                self.common_unit(term, [left, right], [*one, *other])?
             }
-            ([argument], [unit]) => self.unit_of_function(function, *unit, argument, node)?,
+            ([argument], [unit]) => self.unit_of_function(function, *unit, argument, term)?,
             _ => unreachable!("the parser counts arguments"),
         };
         let arguments = numbers.into_iter().map(|it| it.formula).collect();

@@ -8,15 +8,15 @@ use crate::rule::unit::Unit;
 
 /// What stands in a formula besides numbers and keys.
 pub(super) trait Scope: Sized {
-    /// The column of that index, if one may stand at `node`.
-    fn column(index: usize, name: &str, node: &Term) -> Result<Self, ExpressionError>;
+    /// The column of that index, if one may stand at `term`.
+    fn column(index: usize, name: &str, term: &Term) -> Result<Self, ExpressionError>;
 
-    /// A reduction over frames with its unit, if one may stand at `node`.
+    /// A reduction over frames with its unit, if one may stand at `term`.
     fn reduction(
         checker: &Checker,
         function: Function,
         arguments: &[Term],
-        node: &Term,
+        term: &Term,
     ) -> Result<(Self, Option<Unit>), ExpressionError>;
 }
 
@@ -30,16 +30,16 @@ impl Scope for ColumnPlace {
         _: &Checker,
         function: Function,
         _: &[Term],
-        node: &Term,
+        term: &Term,
     ) -> Result<(Self, Option<Unit>), ExpressionError> {
-        Err(refusals::nested(function, node))
+        Err(refusals::nested(function, term))
     }
 }
 
 /// Where one number of the run is needed.
 impl Scope for Reduction {
-    fn column(_: usize, name: &str, node: &Term) -> Result<Self, ExpressionError> {
-        Err(refusals::not_reduced(name, node))
+    fn column(_: usize, name: &str, term: &Term) -> Result<Self, ExpressionError> {
+        Err(refusals::not_reduced(name, term))
     }
 
     fn reduction(
@@ -73,16 +73,16 @@ impl Scope for Reduction {
 
 /// Where a number must not depend on the frames, such as in a period.
 impl Scope for Nothing {
-    fn column(_: usize, name: &str, node: &Term) -> Result<Self, ExpressionError> {
-        Err(refusals::period_of_frames(name, node))
+    fn column(_: usize, name: &str, term: &Term) -> Result<Self, ExpressionError> {
+        Err(refusals::period_of_frames(name, term))
     }
 
     fn reduction(
         _: &Checker,
         function: Function,
         _: &[Term],
-        node: &Term,
+        term: &Term,
     ) -> Result<(Self, Option<Unit>), ExpressionError> {
-        Err(refusals::nested(function, node))
+        Err(refusals::nested(function, term))
     }
 }

@@ -12,13 +12,13 @@ impl Checker {
     /// The unit of a sum, a comparison, or the lesser or greater of two numbers.
     pub(super) fn common_unit(
         &self,
-        node: &Term,
+        term: &Term,
         sides: [&Term; 2],
         units: [Option<Unit>; 2],
     ) -> UnitOrBare {
         match units {
             [Some(left), Some(right)] if left != right => {
-                Err(refusals::different_units(node, sides, [left, right]))
+                Err(refusals::different_units(term, sides, [left, right]))
             }
             [left, right] => Ok(left.or(right)),
         }
@@ -28,7 +28,7 @@ impl Checker {
         &self,
         arithmetic: Arithmetic,
         units: [Option<Unit>; 2],
-        node: &Term,
+        term: &Term,
     ) -> UnitOrBare {
         if units == [None, None] {
             return Ok(None);
@@ -38,16 +38,16 @@ impl Checker {
             Arithmetic::Divide => left.over(right),
             _ => left.times(right),
         };
-        unit.map(Some).ok_or_else(|| refusals::no_unit(node))
+        unit.map(Some).ok_or_else(|| refusals::no_unit(term))
     }
 
     pub(super) fn unit_of_power(
         &self,
         base: Option<Unit>,
         exponent: f64,
-        node: &Term,
+        term: &Term,
     ) -> UnitOrBare {
-        let raised = base.map(|unit| unit.raised(exponent).ok_or_else(|| refusals::no_unit(node)));
+        let raised = base.map(|unit| unit.raised(exponent).ok_or_else(|| refusals::no_unit(term)));
         raised.transpose()
     }
 
@@ -57,18 +57,18 @@ impl Checker {
         function: Mathematics,
         unit: Option<Unit>,
         argument: &Term,
-        node: &Term,
+        term: &Term,
     ) -> UnitOrBare {
         match function {
             Mathematics::Abs | Mathematics::Lesser | Mathematics::Greater => Ok(unit),
-            Mathematics::Sqrt => self.unit_of_power(unit, 0.5, node),
+            Mathematics::Sqrt => self.unit_of_power(unit, 0.5, term),
             Mathematics::Exp
             | Mathematics::Log
             | Mathematics::Sin
             | Mathematics::Cos
             | Mathematics::Tan => match unit {
                 Some(unit) if unit != Unit::ONE => {
-                    Err(refusals::not_pure(function, unit, argument, node))
+                    Err(refusals::not_pure(function, unit, argument, term))
                 }
                 _ => Ok(Some(Unit::ONE)),
             },
@@ -79,12 +79,12 @@ impl Checker {
         &self,
         summary: Summary,
         unit: Option<Unit>,
-        node: &Term,
+        term: &Term,
     ) -> UnitOrBare {
         match summary {
             Summary::Trend => {
                 let rate = unit.unwrap_or(Unit::ONE).over(Unit::SECOND);
-                rate.map(Some).ok_or_else(|| refusals::no_unit(node))
+                rate.map(Some).ok_or_else(|| refusals::no_unit(term))
             }
             Summary::Mean
             | Summary::Min

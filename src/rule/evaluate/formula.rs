@@ -3,13 +3,13 @@
 use crate::rule::syntax::{Arithmetic, Comparator, Mathematics, Summary};
 use crate::rule::unit::Unit;
 
-/// A number. `Place` says what depends on the run besides keys.
+/// A number. `Slot` says what depends on the run besides keys.
 #[derive(Clone, Debug)]
-pub(in crate::rule) enum Formula<SlashPlace> {
+pub(in crate::rule) enum Formula<Slot> {
     Number(f64),
     /// A key, by its index among those that are needed.
     Key(usize),
-    At(SlashPlace),
+    At(Slot),
     Negative(Box<Self>),
     Calculation(Arithmetic, Box<Self>, Box<Self>),
     Power(Box<Self>, f64),
@@ -36,8 +36,8 @@ pub(in crate::rule) enum Nothing {}
 
 /// A condition.
 #[derive(Clone, Debug)]
-pub(in crate::rule) enum Test<SlashPlace> {
-    Comparison(Comparison<SlashPlace>),
+pub(in crate::rule) enum Test<Slot> {
+    Comparison(Comparison<Slot>),
     Not(Box<Self>),
     And(Box<Self>, Box<Self>),
     Or(Box<Self>, Box<Self>),
@@ -45,18 +45,18 @@ pub(in crate::rule) enum Test<SlashPlace> {
 
 /// A comparison of a value with a threshold.
 #[derive(Clone, Debug)]
-pub(in crate::rule) struct Comparison<SlashPlace> {
+pub(in crate::rule) struct Comparison<Slot> {
     pub(in crate::rule) order: Comparator,
-    pub(in crate::rule) value: Formula<SlashPlace>,
-    pub(in crate::rule) threshold: Formula<SlashPlace>,
+    pub(in crate::rule) value: Formula<Slot>,
+    pub(in crate::rule) threshold: Formula<Slot>,
     pub(in crate::rule) unit: Unit,
     /// Its normal form.
     pub(in crate::rule) text: String,
 }
 
-impl<SlashPlace> Formula<SlashPlace> {
+impl<Slot> Formula<Slot> {
     /// Its value, from the values of keys and of what stands in its places.
-    pub(in crate::rule) fn value<F: Fn(&SlashPlace) -> f64>(&self, keys: &[f64], at: &F) -> f64 {
+    pub(in crate::rule) fn value<F: Fn(&Slot) -> f64>(&self, keys: &[f64], at: &F) -> f64 {
         match self {
             Self::Number(value) => *value,
             Self::Key(index) => keys[*index],
@@ -75,9 +75,9 @@ impl<SlashPlace> Formula<SlashPlace> {
     }
 }
 
-impl<SlashPlace> Test<SlashPlace> {
+impl<Slot> Test<Slot> {
     /// Whether it holds.
-    pub(in crate::rule) fn holds<F: Fn(&SlashPlace) -> f64>(&self, keys: &[f64], at: &F) -> bool {
+    pub(in crate::rule) fn holds<F: Fn(&Slot) -> f64>(&self, keys: &[f64], at: &F) -> bool {
         match self {
             Self::Comparison(it) => {
                 let (value, threshold) = (it.value.value(keys, at), it.threshold.value(keys, at));

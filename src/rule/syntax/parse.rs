@@ -28,9 +28,9 @@ pub(in crate::rule) fn parse(text: &str) -> Parsed {
         let help = "write for example `mean(height_mean) > 0.05`";
         return Err(ExpressionError::new("the expression is empty", 0..0, help));
     }
-    let node = parser.expression(0)?;
+    let term = parser.expression(0)?;
     match parser.token() {
-        Token::End => Ok(node),
+        Token::End => Ok(term),
         _ => Err(parser.operator_missing()),
     }
 }
@@ -94,7 +94,7 @@ impl Parser<'_> {
             })?;
             let span = left.span.start..right.span.end;
             let part = TreePart::Binary(operator, Box::new(left), Box::new(right));
-            left = node(part, span, mark)?;
+            left = term(part, span, mark)?;
         }
         Ok(left)
     }
@@ -105,7 +105,7 @@ impl Parser<'_> {
         match self.token().clone() {
             Token::Number(value, unit) => {
                 self.pass();
-                node(TreePart::Number(value, unit), start.clone(), start)
+                term(TreePart::Number(value, unit), start.clone(), start)
             }
             Token::Name => self.name(),
             Token::Open => {
@@ -144,7 +144,7 @@ impl Parser<'_> {
         let mark = self.pass();
         let operand = self.inside(Level::Operation, &mark, |parser| parser.expression(binding))?;
         let span = mark.start..operand.span.end;
-        node(part(Box::new(operand)), span, mark)
+        term(part(Box::new(operand)), span, mark)
     }
 
     /// A name, or a function if a parenthesis follows.
@@ -152,7 +152,7 @@ impl Parser<'_> {
         let mark = self.pass();
         let name = &self.text[mark.clone()];
         if *self.token() != Token::Open {
-            return node(TreePart::Name(name.to_owned()), mark.clone(), mark);
+            return term(TreePart::Name(name.to_owned()), mark.clone(), mark);
         }
         let Some(function) = Function::of_name(name) else {
             let help = match suggest(name, Function::NAMES) {
@@ -178,7 +178,7 @@ impl Parser<'_> {
             let message = format!("`{name}` takes {arity} {values}, not {count}");
             return Err(ExpressionError::new(message, span, function.usage()));
         }
-        node(TreePart::Call(function, arguments), span, mark)
+        term(TreePart::Call(function, arguments), span, mark)
     }
 
     /// Passes the parenthesis that closes the one at `open`, and returns where it ends.
@@ -209,9 +209,9 @@ impl Parser<'_> {
             return Err(too_deep(place.clone()));
         }
         self.levels[level as usize] = levels + 1;
-        let node = read(self)?;
+        let term = read(self)?;
         self.levels[level as usize] = levels;
-        Ok(node)
+        Ok(term)
     }
 
     /// The error of a second comparison behind the comparison `first`.
@@ -258,12 +258,12 @@ impl Parser<'_> {
     }
 }
 
-/// A node, unless it is too deep.
-fn node(part: TreePart, span: Range<usize>, mark: Range<usize>) -> Parsed {
-    let node = Term::new(part, span, mark);
-    match node.depth > DEEPEST {
-        true => Err(too_deep(node.mark)),
-        false => Ok(node),
+/// A term, unless it is too deep.
+fn term(part: TreePart, span: Range<usize>, mark: Range<usize>) -> Parsed {
+    let term = Term::new(part, span, mark);
+    match term.depth > DEEPEST {
+        true => Err(too_deep(term.mark)),
+        false => Ok(term),
     }
 }
 

@@ -16,7 +16,7 @@ pub(in crate::rule) struct Term {
     pub(in crate::rule) depth: usize,
 }
 
-/// What a node is.
+/// What a term is.
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::rule) enum TreePart {
     /// A number, never negative and always finite.

@@ -12,7 +12,7 @@ const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷',
 
 /// What a slash in front divides by.
 #[derive(Clone, Copy, PartialEq)]
-enum SlashPlace {
+enum FractionPart {
     /// No slash yet.
     Above,
     /// The one factor that follows a slash.
@@ -37,46 +37,48 @@ impl Unit {
     /// If the text is not a unit; its place is in bytes of `text`.
     pub fn parse(text: &str) -> Result<Self, ExpressionError> {
         let mut reader = UnitReader { text, at: 0 };
-        let mut place = SlashPlace::Above;
+        let mut place = FractionPart::Above;
         let mut unit = Self::ONE;
         let mut factors = 0;
         while let Some(next) = reader.skip_spaces() {
             let here = reader.here();
-            if next == '/' && factors > 0 && matches!(place, SlashPlace::Above | SlashPlace::Behind)
+            if next == '/'
+                && factors > 0
+                && matches!(place, FractionPart::Above | FractionPart::Behind)
             {
                 reader.at += 1;
-                place = SlashPlace::Below;
-            } else if next == '(' && place == SlashPlace::Below {
+                place = FractionPart::Below;
+            } else if next == '(' && place == FractionPart::Below {
                 reader.at += 1;
-                place = SlashPlace::Group;
-            } else if next == ')' && place == SlashPlace::Group {
+                place = FractionPart::Group;
+            } else if next == ')' && place == FractionPart::Group {
                 reader.at += 1;
-                place = SlashPlace::Behind;
+                place = FractionPart::Behind;
             } else {
                 let factor = reader.factor()?;
                 let here = here.start..reader.at;
-                if place == SlashPlace::Behind {
+                if place == FractionPart::Behind {
                     let message = "the slash may divide by this factor or not";
                     let help = "write negative exponents, such as `kg m^-1 s^-2`";
                     return Err(ExpressionError::new(message, here, help));
                 }
                 let product = match place {
-                    SlashPlace::Above => unit.times(factor),
+                    FractionPart::Above => unit.times(factor),
                     _ => unit.over(factor),
                 };
                 unit = product.ok_or_else(|| too_large(here))?;
                 factors += 1;
-                if place == SlashPlace::Below {
-                    place = SlashPlace::Behind;
+                if place == FractionPart::Below {
+                    place = FractionPart::Behind;
                 }
             }
         }
         match place {
-            SlashPlace::Above | SlashPlace::Behind => Ok(unit),
-            SlashPlace::Below | SlashPlace::Group => {
+            FractionPart::Above | FractionPart::Behind => Ok(unit),
+            FractionPart::Below | FractionPart::Group => {
                 let message = "the unit ends too early";
                 let help = match place {
-                    SlashPlace::Group => "close the parenthesis",
+                    FractionPart::Group => "close the parenthesis",
                     _ => "a slash stands between two units, such as `m/s`",
                 };
                 Err(ExpressionError::new(message, reader.here(), help))
