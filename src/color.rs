@@ -36,6 +36,11 @@ impl ColorMap {
     }
 }
 
+/// Colours of things in turn, told apart by every kind of colour vision (Okabe and Ito, 2008).
+pub(crate) const DISTINCT: [u32; 6] = [
+    0x00_72_b2, 0xd5_5e_00, 0x00_9e_73, 0xcc_79_a7, 0xe6_9f_00, 0x56_b4_e9,
+];
+
 /// The channels of a colour written as 0xRRGGBB.
 pub(crate) const fn rgb(hex: u32) -> [u8; 3] {
     let [_, red, green, blue] = hex.to_be_bytes();

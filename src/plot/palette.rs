@@ -20,16 +20,11 @@ pub(super) const LINES: [RGBColor; 4] = [
     rgb(0xe8_a8_2c),
 ];
 
-/// Colours of many lines or spheres, in turn; told apart by every kind of colour vision (Okabe and
-/// Ito, 2008).
-pub(super) const DISTINCT: [RGBColor; 6] = [
-    rgb(0x00_72_b2),
-    rgb(0xd5_5e_00),
-    rgb(0x00_9e_73),
-    rgb(0xcc_79_a7),
-    rgb(0xe6_9f_00),
-    rgb(0x56_b4_e9),
-];
+/// Colours of many lines or spheres, in turn.
+pub(super) const DISTINCT: [RGBColor; 6] = {
+    let [a, b, c, d, e, f] = color::DISTINCT;
+    [rgb(a), rgb(b), rgb(c), rgb(d), rgb(e), rgb(f)]
+};
 
 /// Lines that help the eye.
 pub(super) const GUIDE: RGBColor = RGBColor(0xb4, 0xb4, 0xb4);

@@ -3,6 +3,7 @@
 use super::{LabelRule, MeasureRule, RuleWindow, Rules, condition, entry, judge, number};
 use crate::classify::measure::{evidence, measured};
 use crate::classify::{Family, Label, Measure};
+use crate::color::{self, DISTINCT};
 use crate::rule::{Condition, ExpressionError, Number, Unit};
 use crate::scene::Scene;
 use std::sync::{Mutex, PoisonError};
@@ -20,12 +21,6 @@ pub(super) const RESERVED: [&str; 7] = [
 
 /// Codes of the labels that rules give begin here.
 const FIRST_CODE: i8 = 20;
-
-/// Colours of labels in turn: told apart by every kind of colour vision, then paler (Okabe and Ito,
-/// 2008).
-const COLORS: [u32; 8] = [
-    0x00_72_b2, 0xe6_9f_00, 0x00_9e_73, 0xcc_79_a7, 0x56_b4_e9, 0xd5_5e_00, 0xf0_e4_42, 0x3a_14_57,
-];
 
 impl Label {
     /// No rule of the file holds.
@@ -153,7 +148,7 @@ fn label(place: usize, rule: &LabelRule) -> Label {
     Label {
         code: FIRST_CODE + place as i8,
         name: rule.name.clone().leak(),
-        color: color.unwrap_or_else(|| crate::color::rgb(COLORS[place % COLORS.len()])),
+        color: color.unwrap_or_else(|| color::rgb(DISTINCT[place % DISTINCT.len()])),
     }
 }
 

@@ -71,11 +71,7 @@ impl Rules {
                 problems.push(problem.help("write it as `\"#b03a2e\"`: red, green and blue"));
             }
             let checked = condition(&rule.when, scene);
-            problems.extend(
-                checked
-                    .err()
-                    .map(|it| pointed(&format!("{path}.when"), &rule.when, it)),
-            );
+            problems.extend(checked.err().map(|it| pointed(&format!("{path}.when"), it)));
         }
         for (place, rule) in self.measures.iter().enumerate() {
             let path = format!("measure[{place}]");
@@ -86,7 +82,7 @@ impl Rules {
             }));
             let checked = number(&rule.value, scene);
             let path = format!("{path}.value");
-            problems.extend(checked.err().map(|it| pointed(&path, &rule.value, it)));
+            problems.extend(checked.err().map(|it| pointed(&path, it)));
         }
         problems
     }
@@ -139,7 +135,7 @@ fn number(text: &str, scene: &Scene) -> Result<Number, ExpressionError> {
 }
 
 /// The problem of an expression in a file.
-fn pointed(path: &str, _text: &str, error: ExpressionError) -> Problem {
+fn pointed(path: &str, error: ExpressionError) -> Problem {
     Problem::new(path, error.message)
         .help(error.help)
         .part(error.span)
