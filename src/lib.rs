@@ -95,6 +95,8 @@ mod cpu_time;
 pub mod dem;
 #[doc(hidden)]
 pub mod document;
+#[doc(hidden)]
+pub mod external;
 mod fonts;
 #[doc(hidden)]
 pub mod forces;

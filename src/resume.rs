@@ -28,7 +28,9 @@ pub struct Checkpoints {
 pub enum Ending {
     /// It ended; its checkpoint may go once the record is stored.
     Finished(Box<RunRecord>),
-    /// It was asked to stop, and left a checkpoint.
+    /// It failed, and has no record; says why.
+    Failed(String),
+    /// It was asked to stop, and left a checkpoint, or what its program left itself.
     Interrupted,
     /// It was asked to stop so soon that the checkpoint of an earlier run was left in place.
     EarlierKept,
@@ -64,6 +66,9 @@ impl Checkpoints {
     /// # Errors
     /// If no run can continue from the file; file and run stay as they were.
     pub fn restore(&self, run: &mut Run) -> Result<bool, CheckpointError> {
+        if !run.can_be_saved() {
+            return Ok(false);
+        }
         let Some(checkpoint) = store::read_checkpoint(&self.path, run.scene())? else {
             return Ok(false);
         };
@@ -97,6 +102,12 @@ impl Checkpoints {
             if run.ended() {
                 break;
             }
+            if !run.can_be_saved() {
+                match stop {
+                    true => return Ending::Interrupted,
+                    false => continue,
+                }
+            }
             let due = latest.elapsed() >= self.interval;
             if stop && !due && !is_ours {
                 return Ending::EarlierKept;
@@ -112,7 +123,10 @@ impl Checkpoints {
             }
             latest = Instant::now();
         }
-        Ending::Finished(Box::new(run.finish()))
+        match run.failure() {
+            Some(reason) => Ending::Failed(reason.to_owned()),
+            None => Ending::Finished(Box::new(run.finish())),
+        }
     }
 
     fn write(&self, run: &Run) -> Result<(), StoreError> {

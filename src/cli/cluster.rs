@@ -1,7 +1,7 @@
 //! What is handed to other machines: the runs of a sweep or study, and how long they take.
 
 use super::exit::Failure;
-use super::folders;
+use super::{folders, programs};
 use phase::cost::{self, Forecast};
 use phase::study::comparison::{Comparison, RunTable};
 use phase::study::{AnyFile, AnyStudy};
@@ -29,9 +29,10 @@ impl Handed {
         workers: usize,
     ) -> Result<Self, Failure> {
         match AnyFile::load(file)? {
-            AnyFile::Sweep(sweep) => {
+            AnyFile::Sweep(mut sweep) => {
                 let root = out.cloned();
                 let folder = Folder::new(root.unwrap_or_else(|| folders::default_folder(file)));
+                programs::take_versions(&mut sweep, &folder);
                 Ok(Self {
                     next: NextJobs::new(&folder, &sweep, workers)?,
                     sweep: *sweep,

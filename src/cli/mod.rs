@@ -16,6 +16,7 @@ mod kind;
 mod labels;
 mod options;
 mod overlaps;
+mod programs;
 mod progress;
 mod refined;
 mod runner;

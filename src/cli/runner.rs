@@ -4,9 +4,10 @@ use super::console::{Console, name_first};
 use super::exit::Failure;
 use super::progress::{Progress, Work};
 use super::{builds, format, job};
+use phase::external;
 use phase::grid::describe;
 use phase::record::{Outcome, RunRecord};
-use phase::run::model_of;
+use phase::run::{Run, model_of};
 use phase::sweep::{
     Event, Failure as JobFailure, Folder, Job, LocalThreads, Plan, Pool, Report, Shard, Standing,
     Sweep, Wishes,
@@ -45,6 +46,14 @@ impl Runner<'_> {
 
     /// Calls `act` with the pool that runs the jobs of a sweep.
     pub(super) fn with_pool<T>(&self, sweep: &Sweep, act: impl FnOnce(&Pool<'_>) -> T) -> T {
+        // Programs are started in folders of their own; who runs the sweep has asked whether they may.
+        let begin = |job: &Job| {
+            let scene = job.scene();
+            match scene.is_external() {
+                true => external::begin(&scene, self.folder.workplace(&job.id)),
+                false => Run::new(&scene),
+            }
+        };
         act(&Pool {
             shard: self.shard,
             workers: self.workers,
@@ -54,7 +63,7 @@ impl Runner<'_> {
                 resume: !self.force,
                 ..Wishes::default()
             },
-            ..Pool::new(self.folder, sweep, &LocalThreads::new(self.workers))
+            ..Pool::new(self.folder, sweep, &LocalThreads::new(self.workers).beginning(&begin))
         })
     }
 

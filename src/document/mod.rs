@@ -4,6 +4,7 @@
 mod check;
 mod difference;
 pub(crate) mod kind;
+mod lasting;
 mod load_error;
 mod problem;
 pub(crate) mod quantities;
@@ -15,6 +16,7 @@ pub(crate) mod text;
 mod tree;
 
 pub use difference::differing_keys;
+pub(crate) use lasting::lasting;
 pub use load_error::{LineSpan, LoadError, LocatedProblem};
 pub use problem::Problem;
 pub(crate) use quantity::{Attribute, KeyQuantity, quantity, unit};

@@ -144,8 +144,9 @@ impl ValueKind {
 impl KeyTable {
     fn of(schema: &Value) -> Self {
         let needed = |name: &str| {
-            let needed = schema["required"].as_array();
-            needed.is_some_and(|names| names.iter().any(|needed| needed == name))
+            let lists = [&schema["required"], &schema["then"]["required"]];
+            let mut names = lists.into_iter().filter_map(Value::as_array).flatten();
+            names.any(|needed| needed == name)
         };
         let keys = schema["properties"].as_object().into_iter().flatten();
         let keys = keys.map(|(name, schema)| TableKey {

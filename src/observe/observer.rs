@@ -32,6 +32,8 @@ pub struct Observer {
     has_contacts: bool,
     /// Whether velocities describe motion: in the spot model they are only mean displacements.
     has_energies: bool,
+    /// Whether there are spheres at all: another program has its own columns only.
+    has_spheres: bool,
     bins: usize,
     bin_width: f64,
     /// Least rises per frame relative to the mean, in radii of the sphere.
@@ -84,6 +86,7 @@ impl Observer {
             has_air: scene.dem.effects.swirl.is_some(),
             has_contacts: scene.dem.contact.is_some(),
             has_energies: scene.spot.is_none(),
+            has_spheres: !scene.is_external(),
             air_rotation: scene
                 .dem
                 .effects
@@ -122,6 +125,9 @@ impl Observer {
     /// the first is the start.
     pub fn observe(&mut self, time: f64, frame: &dyn Frame) {
         self.observations.time.push(time);
+        if !self.has_spheres {
+            return;
+        }
         let totals = self.first_look(frame);
         self.note_energies(&totals);
         self.note_distances(&totals);

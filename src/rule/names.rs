@@ -13,6 +13,11 @@ pub trait Names {
     /// A column hides the key of the same name.
     fn key(&self, path: &str) -> Option<Unit>;
 
+    /// The unit of the times of frames.
+    fn time(&self) -> Unit {
+        Unit::SECOND
+    }
+
     /// All names, for the help of an error.
     fn suggestions(&self) -> Vec<String>;
 }

@@ -1,6 +1,7 @@
 //! One run: from a scene to its record.
 
 mod edits;
+mod external;
 mod load;
 mod models;
 mod packed;
@@ -53,6 +54,9 @@ pub enum RunError {
     /// The caller requested to stop.
     #[error("interrupted")]
     Interrupted,
+    /// The run failed without a broken guard.
+    #[error("{0}")]
+    Failed(String),
 }
 
 /// Runs a scene to its end, or until it breaks a guard. `control` decides after every frame whether
@@ -71,7 +75,10 @@ pub fn run(
             return Err(RunError::Interrupted);
         }
     }
-    Ok(run.finish())
+    match run.failure() {
+        Some(reason) => Err(RunError::Failed(reason.to_owned())),
+        None => Ok(run.finish()),
+    }
 }
 
 /// A run in progress: a simulation and the recorder of its frames, advanced frame by frame, on one
@@ -131,16 +138,19 @@ impl Run {
 
     fn begin(scene: &Scene, simulation: Box<dyn Simulation>, started: f64) -> Self {
         let (radius, mass) = (simulation.radius(), simulation.mass());
+        let frames = simulation.frames().unwrap_or(scene.time.frames());
         let mut run = Self {
             recorder: Recorder::new(scene, radius, mass, simulation.columns()),
             simulation,
             outcome: Outcome::Completed,
             frame: 0,
-            frames: scene.time.frames(),
+            frames,
             cpu_seconds_before: 0.0,
             started,
         };
-        run.look();
+        if run.simulation.has_frame() {
+            run.look();
+        }
         run
     }
 
@@ -155,7 +165,9 @@ impl Run {
             return;
         }
         self.advance_steps();
-        self.look();
+        if self.simulation.has_frame() {
+            self.look();
+        }
     }
 
     /// Advances on this number of threads from now on, if that pays. No bit of the record depends
@@ -179,10 +191,22 @@ impl Run {
 
     /// Advances to the next frame, which [`look`](Self::look) shows.
     pub(crate) fn advance_steps(&mut self) {
-        self.frame += 1;
+        let had_frame = self.simulation.has_frame();
         if let Err(instability) = self.simulation.advance_frame() {
             self.outcome = Outcome::Unstable(instability);
         }
+        // The first frame of a program is its start.
+        self.frame += u64::from(had_frame);
+    }
+
+    /// Why the run has failed without a broken guard, if it has: it has no record.
+    pub fn failure(&self) -> Option<&str> {
+        self.simulation.failure()
+    }
+
+    /// Whether a checkpoint can keep its state.
+    pub fn can_be_saved(&self) -> bool {
+        self.simulation.can_be_saved()
     }
 
     /// Whether the run is over: its time is up, it is steady in a scene with `steady`, a guard is
@@ -221,6 +245,9 @@ impl Run {
             self.simulation.release_memory();
             let (time, recorder) = (self.simulation.time(), &mut self.recorder);
             self.simulation.look(&mut |frame| recorder.end(time, frame));
+            if let Some(snapshots) = self.simulation.take_snapshots() {
+                recorder.replace_snapshots(snapshots);
+            }
         }
         let end = EndOfRun {
             cpu_seconds: self.cpu_seconds(),

@@ -113,6 +113,11 @@ impl Recorder {
         self.recorded.snapshots.push(Snapshot::take(time, frame));
     }
 
+    /// Keeps these states in place of all others.
+    pub(super) fn replace_snapshots(&mut self, snapshots: Vec<Snapshot>) {
+        self.recorded.snapshots = snapshots;
+    }
+
     /// The record of the frames so far.
     pub fn finish(self, end: EndOfRun) -> RunRecord {
         let Recorded {

@@ -17,8 +17,11 @@ pub enum FileKind {
 /// Keys that make a file a sweep.
 const SWEEP_KEYS: [&str; 5] = ["axis", "scene", "sieves", "plot", "seeds"];
 
-/// The key that every scene has.
+/// The key of every scene of spheres.
 const SCENE_KEY: &str = "spheres";
+
+/// The key of a scene that another program runs.
+const PROGRAM_KEY: &str = "program";
 
 /// The key that makes a file a study.
 const STUDY_KEY: &str = "study";
@@ -27,13 +30,14 @@ const STUDY_KEY: &str = "study";
 const ABLATION: &str = "ablation";
 
 impl FileKind {
-    /// The kind of a document, and the key that determines it (for a scene, `spheres`).
+    /// The kind of a document, and the key that determines it (for a scene, `spheres` or `program`).
     pub(crate) fn of(document: &Document) -> (Self, &'static str) {
         let tree: &Value = document.tree();
         let has = |key: &str| tree.get(key).is_some();
         match SWEEP_KEYS.into_iter().find(|key| has(key)) {
             _ if has(STUDY_KEY) && tree[STUDY_KEY] != ABLATION => (Self::Study, STUDY_KEY),
             Some(key) => (Self::Sweep, key),
+            None if has(PROGRAM_KEY) => (Self::Scene, PROGRAM_KEY),
             None => (Self::Scene, SCENE_KEY),
         }
     }

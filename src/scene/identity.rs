@@ -2,8 +2,8 @@
 
 use super::{Contact, Door, Friction, Geometry, Outlet, Rest, Rolling};
 use super::{
-    DemScene, Driven, Effects, Guards, Neighbours, Output, Scene, Spheres, Spot, Start, Steady,
-    Tank, Time,
+    DemScene, Driven, Effects, ExternalProgram, Guards, Neighbours, Output, Parameters,
+    ProgramResume, ProgramStates, ProgramTable, Scene, Spheres, Spot, Start, Steady, Tank, TemplateFile, Time,
 };
 use serde::Serialize;
 
@@ -46,18 +46,31 @@ struct MotionKeys<'a> {
     output: Output,
 }
 
+/// The keys that determine what another program does and what is read of it.
+#[derive(Serialize)]
+struct ProgramKeys<'a> {
+    seed: u64,
+    parameters: &'a Parameters,
+    commands: &'a [Vec<String>],
+    files: &'a [TemplateFile],
+    read: &'a [ProgramTable],
+    states: &'a Option<ProgramStates>,
+    version: &'a [String],
+    found_version: &'a Option<String>,
+    resume: &'a Option<ProgramResume>,
+    exit_codes: &'a [i32],
+}
+
 fn is_empty(driven: &&[Driven]) -> bool {
     driven.is_empty()
 }
 
-impl MotionKeys<'_> {
-    fn identity(&self) -> String {
-        // Numbers are written shortest-round-trip, so the text is canonical. It is hashed while it
-        // is written, because a start with a million spheres would make a long text.
-        let mut hasher = blake3::Hasher::new();
-        serde_json::to_writer(&mut hasher, self).expect("a scene holds no map with odd keys");
-        hasher.finalize().to_hex()[..16].to_owned()
-    }
+fn identity(keys: &impl Serialize) -> String {
+    // Numbers are written shortest-round-trip, so the text is canonical. It is hashed while it
+    // is written, because a start with a million spheres would make a long text.
+    let mut hasher = blake3::Hasher::new();
+    serde_json::to_writer(&mut hasher, keys).expect("a scene holds no map with odd keys");
+    hasher.finalize().to_hex()[..16].to_owned()
 }
 
 impl Scene {
@@ -66,7 +79,41 @@ impl Scene {
     /// have equal bits. Every random number of a run derives from the identity (without the form of
     /// a law).
     pub fn identity(&self) -> String {
-        self.motion().identity()
+        match &self.program {
+            Some(program) => identity(&self.keys_of(program)),
+            None => identity(&self.motion()),
+        }
+    }
+
+    /// Neither the time that a run may take nor what is kept of it changes what it measures.
+    fn keys_of<'a>(&'a self, program: &'a ExternalProgram) -> ProgramKeys<'a> {
+        let ExternalProgram {
+            commands,
+            files,
+            read,
+            states,
+            units: _,
+            version,
+            found_version,
+            resume,
+            exit_codes,
+            retries: _,
+            time_limit: _,
+            most_bytes: _,
+            keep: _,
+        } = program;
+        ProgramKeys {
+            seed: self.seed,
+            parameters: &self.parameters,
+            commands,
+            files,
+            read,
+            states,
+            version,
+            found_version,
+            resume,
+            exit_codes,
+        }
     }
 
     fn motion(&self) -> MotionKeys<'_> {
@@ -78,6 +125,8 @@ impl Scene {
             start,
             dem,
             spot,
+            program: _,
+            parameters: _,
             accuracy: _,
             time,
             steady,
@@ -143,7 +192,7 @@ impl Scene {
             friction_form: None,
             ..self.motion()
         };
-        hasher.update(without_end.identity().as_bytes());
+        hasher.update(identity(&without_end).as_bytes());
         hasher.update(purpose.as_bytes());
         rand_pcg::Pcg64::from_seed(*hasher.finalize().as_bytes())
     }

@@ -2,7 +2,7 @@
 
 use super::{LIST_KEY, SCENE, Scene};
 use crate::document::kind::{KeyTable, NumberRange, TableKey, ValueKind};
-use crate::document::{Problem, any_of, one_of, suggest};
+use crate::document::{Problem, any_of, lasting, one_of, suggest};
 use serde_json::Value;
 use std::borrow::Cow;
 
@@ -11,6 +11,12 @@ const SAFETY_FACTOR_KEY: &str = "time.safety_factor";
 
 /// Constraint on entries of a vector.
 static COMPONENT: ValueKind = ValueKind::Number(NumberRange::ANY);
+
+/// Constraint on parameters that a file gives as whole numbers.
+static COUNT: ValueKind = ValueKind::Whole(0);
+
+/// The table of what other programs are given.
+const PARAMETERS: &str = "parameters";
 
 /// Whether the key at `path` of a scene may hold a number, for any values of the other keys.
 pub(crate) fn may_hold(path: &str, number: f64) -> bool {
@@ -58,12 +64,27 @@ impl Scene {
     /// How figures write a numeric key, with its unit in this scene. Entries of lists have no
     /// notation.
     pub fn notation(&self, key: &str) -> Option<Notation> {
+        if let Some(name) = key.strip_prefix(PARAMETERS) {
+            return self.notation_of_parameter(name.strip_prefix('.')?);
+        }
         let mut keys = self.for_keys(&[]).all_numeric_keys().into_iter();
         let own = keys.find(|known| known.path == key);
         let notation = own.map_or_else(|| Notation::anywhere(key), |known| known.notation)?;
         Some(Notation {
             unit: self.units().shown(notation.unit),
             ..notation
+        })
+    }
+
+    /// How figures write what another program is given: by its name in the file.
+    fn notation_of_parameter(&self, name: &str) -> Option<Notation> {
+        let (name, _) = self.parameters.get_key_value(name)?;
+        let unit = self.program.as_ref().and_then(|it| it.units.get(name));
+        let unit = unit.filter(|unit| *unit != "1");
+        Some(Notation {
+            symbol: lasting(name),
+            unit: unit.map_or("", |unit| lasting(unit)),
+            name: lasting(name),
         })
     }
 
@@ -213,6 +234,16 @@ fn collect(
         ValueKind::Vector => {
             for (index, _) in entries(value) {
                 push(format!("{path}[{index}]"), &COMPONENT, None);
+            }
+        }
+        ValueKind::AnyTable if path == PARAMETERS => {
+            let parameters = value.and_then(Value::as_object).into_iter().flatten();
+            for (name, value) in parameters.filter(|(_, value)| value.is_number()) {
+                let kind = match value.is_u64() {
+                    true => &COUNT,
+                    false => &COMPONENT,
+                };
+                push(format!("{path}.{name}"), kind, None);
             }
         }
         ValueKind::Text

@@ -14,6 +14,7 @@ mod fluid;
 mod identity;
 mod keys;
 mod output;
+mod program;
 mod radius;
 pub(crate) mod settings;
 mod simplified;
@@ -42,6 +43,11 @@ pub(crate) use files::in_start_file;
 pub use keys::Notation;
 pub(crate) use keys::{leaf, may_hold};
 pub use output::Output;
+pub use program::{
+    DescribedColumn, ExternalProgram, FilledProgram, Keep, Parameters, ProgramColumn,
+    ProgramResume, ProgramStates, ProgramTable, TableFormat, TemplateFile, TemplateText,
+};
+use program::absent;
 pub use radius::{Radii, RadiusShare};
 pub use spheres::{Shape, Spheres};
 pub(crate) use spot::STICKING_OUT;
@@ -63,6 +69,7 @@ pub use crate::forces::effects::*;
 use crate::document::{Schema, quantity};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_json::json;
 use std::sync::LazyLock;
 
 /// The keys of a scene file.
@@ -70,6 +77,7 @@ pub(crate) static SCENE: LazyLock<Schema> = LazyLock::new(Schema::of::<Scene>);
 
 /// One simulation, fully specified: what all models share, and the part of its model.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(transform = needed_without_program)]
 pub struct Scene {
     /// Free text, shown in figures and reports.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -79,11 +87,13 @@ pub struct Scene {
     #[schemars(transform = quantity("seed", "", "seed"))]
     pub seed: u64,
     /// The spheres: how many, how large, how heavy.
+    #[serde(default = "absent::spheres", skip_serializing_if = "absent::are_spheres")]
     pub spheres: Spheres,
     /// The tank's walls. Absent: unbounded space.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tank: Option<Tank>,
     /// Where and how the spheres start.
+    #[serde(default = "absent::start", skip_serializing_if = "absent::is_start")]
     pub start: Start,
     /// The part of the discrete element model.
     #[serde(flatten)]
@@ -91,12 +101,20 @@ pub struct Scene {
     /// Use the spot model instead of the discrete element model. Absent: discrete element model.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub spot: Option<Spot>,
+    /// Another program in place of a model of this one. Absent: a model of this one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub program: Option<ExternalProgram>,
+    /// What the program of the scene is given, by name: numbers, which may be axes; texts; true or
+    /// false.
+    #[serde(default, skip_serializing_if = "Parameters::is_empty")]
+    pub parameters: Parameters,
     /// Required accuracy of the numerics: chooses `integrator`, `dt = "auto"` with its
     /// `safety_factor`, and `frame_interval` of `time`, unless the file gives them. The scene of a
     /// run has the chosen settings instead of this key.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub accuracy: Option<Accuracy>,
     /// Time step, duration, frames, integrator.
+    #[serde(default = "absent::time", skip_serializing_if = "absent::is_time")]
     pub time: Time,
     /// When the run counts as steady and ends. Absent: it ends at its duration.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -181,6 +199,8 @@ impl Scene {
             start,
             dem: DemScene::default(),
             spot: None,
+            program: None,
+            parameters: Parameters::new(),
             accuracy: None,
             time,
             steady: None,
@@ -191,6 +211,14 @@ impl Scene {
 
 /// The largest seed: TOML has no larger whole number.
 pub const LARGEST_SEED: u64 = i64::MAX as u64;
+
+/// What every scene needs, unless another program runs it.
+fn needed_without_program(schema: &mut schemars::Schema) {
+    let unless = json!({ "not": { "required": ["program"] } });
+    schema.insert("if".to_owned(), unless);
+    let needed = json!({ "required": ["spheres", "start", "time"] });
+    schema.insert("then".to_owned(), needed);
+}
 
 fn default_seed() -> u64 {
     1

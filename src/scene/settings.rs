@@ -1,14 +1,16 @@
 //! Keys of a scene file that follow from others, added to its tree of values before it is read.
 
 use super::Accuracy;
+use super::validate::complete_program;
 use crate::document::Problem;
 use serde_json::Value;
 
 /// Adds what a scene's tree leaves open: the settings of its `accuracy`, and the step of a scene
 /// without steps.
 pub(crate) fn complete(tree: &mut Value) -> Vec<Problem> {
-    let problems = choose_step_of_spots(tree);
-    if !problems.is_empty() {
+    let mut problems = complete_program(tree);
+    problems.extend(choose_step_of_spots(tree));
+    if !problems.is_empty() || tree["program"].is_object() {
         return problems;
     }
     Accuracy::choose_settings(tree)

@@ -1,6 +1,6 @@
 //! The interface between the program and its models.
 
-use super::{Column, Counts, Frame, Instability, Milestone, PartOfStep, Profile};
+use super::{Column, Counts, Frame, Instability, Milestone, PartOfStep, Profile, Snapshot};
 use crate::forces::simplification::Simplification;
 use crate::scene::Scene;
 use rayon::ThreadPoolBuildError;
@@ -45,6 +45,32 @@ pub trait Simulation {
     /// Whether nothing more will happen, however long the run continues.
     fn ended(&self) -> bool {
         false
+    }
+
+    /// Whether there is a frame to look at. A program that runs elsewhere has none before it ends.
+    fn has_frame(&self) -> bool {
+        true
+    }
+
+    /// Number of frames of the whole run, the start not counted, if the scene does not say it.
+    fn frames(&self) -> Option<u64> {
+        None
+    }
+
+    /// Why the run has failed without a broken guard, if it has. It then has ended.
+    fn failure(&self) -> Option<&str> {
+        None
+    }
+
+    /// Whether its state can be saved between two frames.
+    fn can_be_saved(&self) -> bool {
+        true
+    }
+
+    /// States of the spheres that the model keeps itself, in place of those that the recorder
+    /// keeps.
+    fn take_snapshots(&mut self) -> Option<Vec<Snapshot>> {
+        None
     }
 
     /// Work done so far, in the [unit](Model::work_unit) of the model.

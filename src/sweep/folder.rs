@@ -3,6 +3,7 @@
 use super::plan::standing;
 use super::{Job, Refining, Standing, Sweep, read_failures};
 use crate::classify::{LabelRow, LabelTable};
+use crate::external::Workplace;
 use crate::grid::Axis;
 use crate::record::RunRecord;
 use crate::refusal::Refusal;
@@ -276,6 +277,11 @@ impl Folder {
     /// The checkpoints of the run with that identity, beside its record.
     pub fn checkpoints(&self, id: &str, interval: Duration) -> Checkpoints {
         Checkpoints::beside(&self.record(id), interval)
+    }
+
+    /// The folder in which the program of the run with that identity runs.
+    pub fn workplace(&self, id: &str) -> Workplace {
+        Workplace::beside(&self.record(id))
     }
 
     /// Reads the record of the run with that identity.

@@ -48,4 +48,5 @@ mod studies;
 mod suggestions;
 #[path = "../support/mod.rs"]
 mod support;
+mod tables;
 mod variants;

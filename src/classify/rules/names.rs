@@ -3,7 +3,7 @@
 use crate::observe::Observations;
 use crate::record::RunRecord;
 use crate::rule::{Names, Unit, Values};
-use crate::scene::{Notation, Scene};
+use crate::scene::{ExternalProgram, Notation, Scene};
 use std::borrow::Cow;
 
 /// The names that the rules for runs of a scene may use.
@@ -18,29 +18,41 @@ impl<'a> SceneNames<'a> {
     pub(super) fn new(scene: &'a Scene) -> Self {
         Self { scene }
     }
+
+    /// Names and units of the columns that its runs may have.
+    fn columns(&self) -> impl Iterator<Item = (&'a str, &'a str)> {
+        let program = self.scene.program.as_ref();
+        let of_program = program.into_iter().flat_map(ExternalProgram::columns);
+        let of_program = of_program.map(|column| (column.name(), column.unit()));
+        let of_spheres = Observations::COLUMNS.iter();
+        let of_spheres = of_spheres.map(|column| (column.name, column.unit));
+        let has_spheres = program.is_none();
+        let of_models = of_spheres.chain(OF_MODELS).filter(move |_| has_spheres);
+        of_program.chain(of_models)
+    }
 }
 
-/// Names and units of the columns that runs may have.
-fn columns() -> impl Iterator<Item = (&'static str, &'static str)> {
-    let of_spheres = Observations::COLUMNS.iter();
-    let of_spheres = of_spheres.map(|column| (column.name, column.unit));
-    of_spheres.chain(OF_MODELS)
-}
 
 impl Names for SceneNames<'_> {
     fn column(&self, name: &str) -> Option<Unit> {
-        let unit = columns().find(|column| column.0 == name)?.1;
+        let unit = self.columns().find(|column| column.0 == name)?.1;
         Unit::parse(unit).ok()
     }
 
     fn key(&self, path: &str) -> Option<Unit> {
         self.scene.number(path)?;
-        let unit = Notation::anywhere(path).map_or("", |it| it.unit);
-        Unit::parse(unit).ok()
+        let own = self.scene.is_external().then(|| self.scene.notation(path));
+        let notation = own.unwrap_or_else(|| Notation::anywhere(path));
+        Unit::parse(notation.map_or("", |it| it.unit)).ok()
+    }
+
+    fn time(&self) -> Unit {
+        let unit = self.scene.unit_of_time();
+        Unit::parse(unit).unwrap_or(Unit::ONE)
     }
 
     fn suggestions(&self) -> Vec<String> {
-        let columns = columns().map(|column| column.0.to_owned());
+        let columns = self.columns().map(|column| column.0.to_owned());
         columns.chain(self.scene.numeric_keys()).collect()
     }
 }

@@ -2,6 +2,7 @@
 
 mod answer;
 mod describe;
+mod program;
 mod study;
 mod walls;
 
@@ -55,7 +56,7 @@ pub(crate) struct Arguments {
 
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
     let workers = arguments.workers.count();
-    let (sweep, kind) = match arguments.load()? {
+    let (mut sweep, kind) = match arguments.load()? {
         AnyFile::Scene(scene) => (Sweep::of_scene(*scene), FileKind::Scene),
         AnyFile::Sweep(sweep) => (*sweep, FileKind::Sweep),
         AnyFile::Study(study) => return study::main(&study, arguments, workers, console),
@@ -65,6 +66,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         sweep.check_sieves(&jobs).map_err(labels::cannot_label)?;
     }
     console.result(describe_sweep(&sweep, jobs.len()));
+    program::describe_programs(&sweep, &jobs, console);
     let tightest = tightest_limits(&jobs);
     for text in describe_time_step(&tightest, &sweep.axes, console.is_verbose()) {
         console.result(line("time step", text));
@@ -83,6 +85,14 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     }
     let mut answer = Answer::new((arguments, kind), &sweep, &jobs, &tightest);
     answer.walls = walls.map(|walls| walls.answer());
+    if program::runs_all(&sweep) {
+        console.answer(&answer);
+        return match arguments.no_trial {
+            true => Ok(Exit::Done),
+            false => program::forecast(&mut sweep, &arguments.file, workers, console)
+                .map(|()| Exit::Done),
+        };
+    }
     if !arguments.no_trial {
         let forecast = try_jobs(&sweep, &jobs, workers, console)?;
         answer.forecast = Some(ForecastAnswer::new(&forecast, workers));

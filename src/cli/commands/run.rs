@@ -6,12 +6,14 @@ mod interruptible;
 
 use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
+use crate::cli::programs::AllowProgram;
 use crate::cli::values;
 use crate::cli::{folders, overlaps, time_step};
 use again::Original;
 use answer::{Answer, summary};
 use interruptible::Ran;
 use phase::document::Problem;
+use phase::external::Workplace;
 use phase::record::RunRecord;
 use phase::resume::{Checkpoints, DEFAULT_INTERVAL};
 use phase::run::{Edits, frame_of_state};
@@ -85,6 +87,8 @@ pub(crate) struct Arguments {
     /// depend on it.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = values::threads)]
     threads: usize,
+    #[command(flatten)]
+    program: AllowProgram,
 }
 
 impl Arguments {
@@ -111,6 +115,9 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         record: default_path,
         original,
     } = AskedRun::of(arguments, console)?;
+    let file = arguments.scene.as_ref().or(arguments.from.as_ref());
+    let file = file.map_or(Path::new(""), |it| it.as_path());
+    arguments.program.prepare_scene(&mut scene, file, console)?;
     ask_for_more(&mut scene, arguments)?;
     let path = arguments.out.clone().unwrap_or(default_path);
     if let Some(original) = &original {
@@ -126,8 +133,9 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     let checkpoints = Checkpoints::beside(&path, interval);
     let signature = store::CHECKPOINT_SIGNATURE;
     folders::refuse_to_replace(checkpoints.path(), "a checkpoint", signature)?;
+    let workplace = Workplace::beside(&path);
     let ran = interruptible::run(
-        &scene,
+        (&scene, &workplace),
         arguments.threads,
         &checkpoints,
         arguments.resume,
@@ -142,6 +150,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         return Ok(Exit::Interrupted);
     };
     write(&mut record, &path, &checkpoints, original.is_some())?;
+    workplace.tidy(&record.scene);
     console.result(summary(&record, seconds));
     console.file(&path);
     if let Some(table) = &table {

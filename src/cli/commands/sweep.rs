@@ -6,6 +6,7 @@ use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::job::NamedJob;
 use crate::cli::options::Workers;
+use crate::cli::programs::AllowProgram;
 use crate::cli::runner::{Runner, RunsMade};
 use crate::cli::values;
 use crate::cli::{figures, labels};
@@ -42,6 +43,8 @@ pub(crate) struct Arguments {
     out: Option<PathBuf>,
     #[command(flatten)]
     workers: Workers,
+    #[command(flatten)]
+    program: AllowProgram,
     /// Run every job again, whatever the results folder holds.
     #[arg(short, long)]
     force: bool,
@@ -79,6 +82,7 @@ pub(crate) struct Arguments {
 
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
     let mut sweep = phase::sweep::load(&arguments.file)?;
+    arguments.program.prepare(&mut sweep, &arguments.file, console)?;
     choose_runs(&mut sweep, arguments)?;
     let workers = arguments.workers.count();
     let jobs = sweep.jobs()?;

@@ -23,6 +23,9 @@ impl Scene {
 
     /// The same for a scene whose numbers are known to be within their ranges.
     pub(crate) fn problems_in_range(&self) -> Vec<Problem> {
+        if self.is_external() {
+            return self.problems_of_program();
+        }
         let mut problems = Vec::new();
         self.check_all_but_step(&mut problems);
         self.check_whole_steps(&mut problems);
@@ -36,6 +39,9 @@ impl Scene {
     /// problems can be run, stable or not.
     pub(crate) fn problems_but_of_limit(&self) -> Vec<Problem> {
         let mut problems = self.problems_of_values();
+        if problems.is_empty() && self.is_external() {
+            return self.problems_of_program();
+        }
         if problems.is_empty() {
             self.check_all_but_step(&mut problems);
             self.check_whole_steps(&mut problems);

@@ -52,6 +52,8 @@ pub(in crate::rule) fn number(
 struct Checker {
     columns: BTreeMap<String, Unit>,
     keys: BTreeMap<String, Unit>,
+    /// Of the times of frames.
+    time: Unit,
 }
 
 /// What a name stands for: its index among the columns or keys that are needed, and its unit.
@@ -66,6 +68,7 @@ impl Checker {
         let mut checker = Self {
             columns: BTreeMap::new(),
             keys: BTreeMap::new(),
+            time: names.time(),
         };
         let mut unknown = None;
         term.names(&mut |name, term| {
@@ -106,7 +109,7 @@ impl Checker {
 /// The unit of a column.
 fn column(name: &str, names: &dyn Names) -> Option<Unit> {
     match name {
-        TIME => Some(Unit::SECOND),
+        TIME => Some(names.time()),
         _ => names.column(name),
     }
 }

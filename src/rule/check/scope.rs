@@ -61,7 +61,7 @@ impl Scope for Reduction {
             (Function::Repeats, [argument, period]) => {
                 let value = checker.number_of(function, argument)?.formula;
                 let Typed { formula, unit } = checker.number_of::<Nothing>(function, period)?;
-                match unit.is_none_or(|unit| unit == Unit::SECOND) {
+                match unit.is_none_or(|unit| unit == checker.time) {
                     true => Ok((Self::Repeats(value, formula), Some(Unit::ONE))),
                     false => Err(refusals::no_period(unit, period)),
                 }

@@ -83,7 +83,7 @@ impl Checker {
     ) -> UnitOrBare {
         match summary {
             Summary::Trend => {
-                let rate = unit.unwrap_or(Unit::ONE).over(Unit::SECOND);
+                let rate = unit.unwrap_or(Unit::ONE).over(self.time);
                 rate.map(Some).ok_or_else(|| refusals::no_unit(term))
             }
             Summary::Mean

@@ -1,12 +1,14 @@
 //! The files that a scene names: radii, fixed spheres, spheres to start from.
 
 mod geometry;
+mod program;
 mod radii;
 mod start;
 
 use super::{Geometry, LIST_KEY, Radii, Scene, Start};
 use crate::document::{Problem, advice};
 use geometry::read_geometry;
+use program::read_templates;
 use radii::read_radii;
 use start::{line_of, read_start};
 use std::io;
@@ -72,6 +74,7 @@ impl Scene {
         matches!(self.spheres.radius, Radii::File { .. })
             || matches!(self.dem.geometry, Some(Geometry::File { .. }))
             || matches!(self.start, Start::File { .. })
+            || self.program.as_ref().is_some_and(|it| it.texts().count() < it.files.len())
     }
 
     /// Replaces the names of files, relative to `folder`, by their contents.
@@ -96,6 +99,12 @@ impl Scene {
                 Err(error) => refuse("geometry.path", error),
             }
         }
+        if let Some(program) = &mut self.program {
+            read_templates(&mut program.files, folder, problems);
+        }
+        let mut refuse = |key: &str, error: FileError| {
+            problems.push(Problem::new(key, error.to_string()));
+        };
         if let Start::File { path } = &self.start {
             match read_start(&folder.join(path)) {
                 Ok(spheres) => self.start = Start::list(spheres),

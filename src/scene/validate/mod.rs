@@ -3,6 +3,7 @@
 mod driven;
 mod neighbours;
 mod output;
+mod program;
 mod silo;
 mod spot;
 mod start;
@@ -10,6 +11,7 @@ mod steady;
 mod tank;
 mod time;
 
+pub(super) use program::complete as complete_program;
 pub(crate) use time::multiple;
 
 use super::{
@@ -24,6 +26,12 @@ impl Scene {
     /// Values of the wrong type, and numbers out of range.
     pub(crate) fn problems_of_values(&self) -> Vec<Problem> {
         let mut problems = Vec::new();
+        if self.program.is_some() {
+            let mut tree = self.tree();
+            program::add_absent(&mut tree);
+            SCENE.kind.check(&tree, "", &mut problems);
+            return problems;
+        }
         let Some((without_them, spheres)) = self.apart_from_list() else {
             SCENE.kind.check(&self.tree(), "", &mut problems);
             return problems;

@@ -45,7 +45,8 @@ pub(super) fn build(
     spheres(&mut group, record);
     file.add_group(group.finish());
     let mut group = file.create_group("observations");
-    observations(&mut group, &record.observations);
+    let unit = record.scene.unit_of_time();
+    observations(&mut group, &record.observations, unit);
     file.add_group(group.finish());
     for (name, states) in [
         ("snapshots", &record.snapshots),
@@ -195,9 +196,9 @@ fn spheres(group: &mut GroupBuilder, record: &RunRecord) {
     dataset(group, quantity, &count, &record.mass);
 }
 
-fn observations(group: &mut GroupBuilder, observations: &Observations) {
+fn observations(group: &mut GroupBuilder, observations: &Observations, unit_of_time: &str) {
     let frames = [observations.frames()];
-    let quantity = StoredQuantity("time", "s", "Time of each frame");
+    let quantity = StoredQuantity("time", unit_of_time, "Time of each frame");
     dataset(group, quantity, &frames, &observations.time);
     for series in observations.scalars() {
         let quantity = StoredQuantity(series.name, series.unit, series.description);

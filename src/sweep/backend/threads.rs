@@ -40,6 +40,7 @@ impl<'a> LocalThreads<'a> {
         let run = || (self.begin)(job).map(|run| drive(batch, job, resumed(batch, job, run)));
         match catch_unwind(AssertUnwindSafe(run)) {
             Ok(Ok(Ending::Finished(record))) => permit.finish(&record),
+            Ok(Ok(Ending::Failed(reason))) => permit.fail(reason),
             Ok(Ok(Ending::Lost(error))) => batch.tell(Event::NoCheckpoint(job, &error)),
             Ok(Ok(Ending::Interrupted | Ending::EarlierKept)) => {}
             Ok(Err(error)) => permit.fail(error.to_string()),

@@ -6,7 +6,7 @@ use crate::cli::time_step::Tightest;
 use phase::cost::Forecast;
 use phase::dem::timestep::StepMargin;
 use phase::grid::{Axis, Variant};
-use phase::scene::FileKind;
+use phase::scene::{FileKind, Time};
 use phase::sweep::{Job, Sweep, differing_keys};
 use serde::Serialize;
 use serde_json::Value;
@@ -48,12 +48,15 @@ pub(super) struct Answer<'a> {
     variants: Vec<VariantAnswer<'a>>,
     /// Most runs of a refined sweep; `None` if the whole grid is run.
     budget: Option<usize>,
-    spheres: usize,
+    /// What its program runs at the first point; `None` of scenes of spheres, which have all that
+    /// follows.
+    commands: Option<Vec<Vec<String>>>,
+    spheres: Option<usize>,
     effects: Vec<String>,
-    duration: f64,
-    frames: u64,
-    steps_per_frame: u64,
-    dt: f64,
+    duration: Option<f64>,
+    frames: Option<u64>,
+    steps_per_frame: Option<u64>,
+    dt: Option<f64>,
     /// The safety factor of `dt = "auto"`; `None` if the step was given.
     safety_factor: Option<f64>,
     limits: Vec<LimitAnswer>,
@@ -73,6 +76,7 @@ impl<'a> Answer<'a> {
         let scene = &sweep.scene;
         let variants = sweep.axes.iter().flat_map(|axis| &axis.variants);
         let limits = tightest.iter();
+        let time = (!scene.is_external()).then_some(&scene.time);
         Self {
             file: &arguments.file,
             kind: kind.name(),
@@ -82,12 +86,16 @@ impl<'a> Answer<'a> {
             seeds: &sweep.seeds,
             variants: variants.map(|it| VariantAnswer::of(it, sweep)).collect(),
             budget: sweep.refine.as_ref().map(|it| it.budget),
-            spheres: scene.spheres.count,
+            commands: jobs
+                .first()
+                .and_then(|job| job.scene().filled_program())
+                .map(|program| program.commands),
+            spheres: time.map(|_| scene.spheres.count),
             effects: super::effects(scene),
-            duration: scene.time.duration,
-            frames: scene.time.frames(),
-            steps_per_frame: scene.time.steps_per_frame(),
-            dt: scene.time.dt,
+            duration: time.map(|it| it.duration),
+            frames: time.map(Time::frames),
+            steps_per_frame: time.map(Time::steps_per_frame),
+            dt: time.map(|it| it.dt),
             safety_factor: scene.time.safety_factor,
             limits: limits
                 .map(|limit| LimitAnswer::new(limit, &sweep.axes))

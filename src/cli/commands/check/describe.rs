@@ -32,6 +32,9 @@ pub(super) fn describe_sweep(sweep: &Sweep, jobs: usize) -> String {
         lines.push(line("refined", text));
     }
     let count = |scene: &Scene| scene.spheres.count.to_string();
+    if sweep.scenes().into_iter().all(Scene::is_external) {
+        return lines.join("\n");
+    }
     lines.extend(of_scenes(sweep, "spheres", count));
     lines.extend(of_scenes(sweep, "effects", |scene| {
         effects(scene).join(", ")

@@ -5,6 +5,7 @@ use crate::cli::exit::Failure;
 use crate::cli::format;
 use crate::cli::interrupt;
 use crate::cli::progress::{Progress, Work};
+use phase::external::{self, Workplace};
 use phase::record::RunRecord;
 use phase::resume::{Checkpoints, Ending};
 use phase::run::{self, Run};
@@ -25,14 +26,18 @@ pub(super) struct Ran {
 /// Runs a scene on this number of threads, with a progress bar and checkpoints. If it is
 /// interrupted, says how to continue and returns `None`.
 pub(super) fn run(
-    scene: &Scene,
+    (scene, workplace): (&Scene, &Workplace),
     threads: usize,
     checkpoints: &Checkpoints,
     resume: bool,
     console: &Console,
 ) -> Result<Option<Ran>, Failure> {
     let stop = interrupt::stop_on_signal(console)?;
-    let mut run = Run::new(scene).map_err(Failure::failed)?;
+    let begun = match scene.is_external() {
+        true => external::begin(scene, workplace.clone()),
+        false => Run::new(scene),
+    };
+    let mut run = begun.map_err(Failure::failed)?;
     run.use_threads(threads)?;
     let resumed = begin(&mut run, checkpoints, resume, console)?;
     let resumed_from = resumed.then(|| run.time());
@@ -83,6 +88,7 @@ pub(super) fn run(
             resumed_from,
         })),
         Ending::Lost(error) => Err(Failure::failed(error)),
+        Ending::Failed(reason) => Err(Failure::failed(reason)),
         Ending::Interrupted | Ending::EarlierKept => {
             let frames = scene.time.frames();
             tell_of_interruption(&ending, (frame, frames), checkpoints, console);

@@ -1,0 +1,160 @@
+//! Programs that scenes start: whether they may, and their versions.
+
+use super::console::Console;
+use super::exit::Failure;
+use phase::external::find_version;
+use phase::scene::{ExternalProgram, Scene};
+use phase::sweep::{Folder, Sweep};
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use std::env;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// The option that lets a file start programs.
+#[derive(clap::Args)]
+pub(super) struct AllowProgram {
+    /// Start the program that the file names in [program]. Such a file is code: read it first.
+    #[arg(long)]
+    allow_program: bool,
+}
+
+/// What the user's own configuration says.
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+struct Configuration {
+    /// Files that may start programs, and folders of such files.
+    programs: Vec<PathBuf>,
+}
+
+impl AllowProgram {
+    /// Makes a sweep ready whose scenes start programs: asks whether they may, and what their
+    /// versions are.
+    pub(super) fn prepare(
+        &self,
+        sweep: &mut Sweep,
+        file: &Path,
+        console: &Console,
+    ) -> Result<(), Failure> {
+        self.prepare_scenes(&mut scenes_of(sweep), file, console)
+    }
+
+    /// The same for a scene.
+    pub(super) fn prepare_scene(
+        &self,
+        scene: &mut Scene,
+        file: &Path,
+        console: &Console,
+    ) -> Result<(), Failure> {
+        self.prepare_scenes(&mut [scene], file, console)
+    }
+
+    fn prepare_scenes(
+        &self,
+        scenes: &mut [&mut Scene],
+        file: &Path,
+        console: &Console,
+    ) -> Result<(), Failure> {
+        let programs = || scenes.iter().filter_map(|scene| scene.program.as_ref());
+        let mut names: Vec<String> = programs()
+            .flat_map(ExternalProgram::programs)
+            .map(|it| format!("`{it}`"))
+            .collect();
+        names.sort_unstable();
+        names.dedup();
+        if names.is_empty() {
+            return Ok(());
+        }
+        if !self.allow_program && !is_listed(file)? {
+            return Err(refuse(&names.join(", "), file));
+        }
+        let mut known: BTreeMap<Vec<String>, String> = BTreeMap::new();
+        for program in scenes.iter_mut().filter_map(|it| it.program.as_mut()) {
+            if program.version.is_empty() {
+                continue;
+            }
+            let found = match known.get(&program.version) {
+                Some(found) => found.clone(),
+                None => {
+                    let found = find_version(&program.version).map_err(Failure::failed)?;
+                    console.detail(format_args!("{}: {found}", program.version.join(" ")));
+                    known.insert(program.version.clone(), found.clone());
+                    found
+                }
+            };
+            program.found_version = Some(found);
+        }
+        Ok(())
+    }
+}
+
+/// Gives the programs of a sweep the versions that a results folder keeps of them, if it does.
+/// Starts none.
+pub(super) fn take_versions(sweep: &mut Sweep, folder: &Folder) {
+    let Ok(mut stored) = folder.read_sweep() else {
+        return;
+    };
+    let stored: Vec<ExternalProgram> = scenes_of(&mut stored)
+        .iter()
+        .filter_map(|scene| scene.program.clone())
+        .collect();
+    for scene in scenes_of(sweep) {
+        if let Some(program) = &mut scene.program {
+            let same = stored.iter().find(|it| it.version == program.version);
+            program.found_version = same.and_then(|it| it.found_version.clone());
+        }
+    }
+}
+
+/// All scenes of a sweep.
+fn scenes_of(sweep: &mut Sweep) -> Vec<&mut Scene> {
+    let variants = sweep.axes.iter_mut().flat_map(|axis| &mut axis.variants);
+    let of_variants = variants.map(|variant| &mut variant.scene);
+    [&mut sweep.scene].into_iter().chain(of_variants).collect()
+}
+
+fn refuse(names: &str, file: &Path) -> Failure {
+    let listed = match configuration_file() {
+        Some(path) => format!(
+            ", or list the file or its folder in {}: `programs = [\"{}\"]`",
+            path.display(),
+            file.canonicalize().unwrap_or_else(|_| file.to_owned()).display()
+        ),
+        None => String::new(),
+    };
+    Failure::refused(format_args!(
+        "{}: it starts {names}, and a file that starts programs is code; read it, then give \
+         --allow-program{listed}",
+        file.display()
+    ))
+}
+
+/// Whether the user's own configuration lists a file, or a folder that it lies in.
+fn is_listed(file: &Path) -> Result<bool, Failure> {
+    let Some(path) = configuration_file() else {
+        return Ok(false);
+    };
+    let text = match fs::read_to_string(&path) {
+        Ok(text) => text,
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(false),
+        Err(error) => return Err(Failure::refused(error).at(&path)),
+    };
+    let configuration: Configuration = toml::from_str(&text).map_err(|error| {
+        let help = "it may say `programs = [\"/path/of/a/folder\"]`";
+        Failure::refused(format_args!("{}; {help}", error.message())).at(&path)
+    })?;
+    let Ok(file) = file.canonicalize() else {
+        return Ok(false);
+    };
+    let listed = configuration.programs.iter();
+    let mut listed = listed.filter(|it| it.is_absolute());
+    Ok(listed.any(|it| it.canonicalize().is_ok_and(|it| file.starts_with(it))))
+}
+
+/// The user's own configuration.
+fn configuration_file() -> Option<PathBuf> {
+    let set = |name| env::var_os(name).filter(|it| !it.is_empty()).map(PathBuf::from);
+    let folder = set("XDG_CONFIG_HOME").or_else(|| Some(set("HOME")?.join(".config")));
+    Some(folder?.join("phase").join("config.toml"))
+}

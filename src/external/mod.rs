@@ -1,0 +1,53 @@
+//! Other programs behind the door to a model: they are started, watched, and what they leave is
+//! read as the frames of a run.
+//!
+//! A run has a folder of its own, in which all files that this program writes for it lie. What the
+//! other program does, and which bits it gives, is its own affair. Nothing here starts a program
+//! but [`begin`] and [`find_version`]; who calls them has asked whether it may.
+
+mod frames;
+mod process;
+mod simulation;
+mod states;
+pub mod table;
+mod version;
+mod workplace;
+
+pub use version::{VersionError, find_version};
+pub use workplace::Workplace;
+
+use crate::run::Run;
+use crate::scene::Scene;
+use crate::simulation::BuildError;
+use simulation::ExternalSimulation;
+use std::io;
+
+/// A scene is of no other program.
+#[derive(Debug, thiserror::Error)]
+#[error("the scene names no program")]
+struct NoProgram;
+
+/// The folder of a run cannot be made.
+#[derive(Debug, thiserror::Error)]
+#[error("{}: {source}{}", path.display(), crate::document::advice(source))]
+struct NoWorkplace {
+    path: std::path::PathBuf,
+    source: io::Error,
+}
+
+/// The run of a scene by its program, in that folder. The program starts when the run advances, and
+/// is ended when the run is dropped before. It goes on from what an earlier run left there if the
+/// scene says how; else what is there is removed.
+///
+/// # Errors
+/// If the scene has no program, or the folder cannot be made or is of something else.
+pub fn begin(scene: &Scene, workplace: Workplace) -> Result<Run, BuildError> {
+    let (Some(program), Some(filled)) = (&scene.program, scene.filled_program()) else {
+        return Err(BuildError::new(NoProgram));
+    };
+    let path = workplace.path().to_owned();
+    let simulation = ExternalSimulation::new(program.clone(), filled, workplace);
+    let simulation =
+        simulation.map_err(|source| BuildError::new(NoWorkplace { path, source }))?;
+    Ok(Run::with_simulation(scene, Box::new(simulation)))
+}
