@@ -50,17 +50,22 @@ impl Handed {
     /// The runs of a study that are next: of an ablation pairs of effects, once all runs of single
     /// ones are there.
     fn of_study(
-        study: AnyStudy,
+        mut study: AnyStudy,
         file: &Path,
         out: Option<&PathBuf>,
         workers: usize,
     ) -> Result<Self, Failure> {
+        let by_default = || folders::default_folder_of_study(study.name(), file);
+        let folder = Folder::new(out.cloned().unwrap_or_else(by_default));
+        if let Some(comparison) = study.comparison_mut()
+            && programs::take_versions(&mut comparison.sweep, &folder)
+        {
+            comparison.choose_runs()?;
+        }
         let Some(comparison) = study.comparison() else {
             let message = "the runs of a verification case take seconds: `phase study` makes them";
             return Err(Failure::refused(message).at(file));
         };
-        let by_default = || folders::default_folder_of_study(study.name(), file);
-        let folder = Folder::new(out.cloned().unwrap_or_else(by_default));
         let handed = Self::of_comparison(comparison, folder.clone(), workers)?;
         let ablation = match &study {
             AnyStudy::Ablation(it) if handed.next.missing.is_empty() => it,

@@ -30,13 +30,13 @@ struct Configuration {
 
 impl AllowProgram {
     /// Makes a sweep ready whose scenes start programs: asks whether they may, and what their
-    /// versions are.
+    /// versions are. Returns whether there are any.
     pub(super) fn prepare(
         &self,
         sweep: &mut Sweep,
         file: &Path,
         console: &Console,
-    ) -> Result<(), Failure> {
+    ) -> Result<bool, Failure> {
         self.prepare_scenes(&mut scenes_of(sweep), file, console)
     }
 
@@ -46,7 +46,7 @@ impl AllowProgram {
         scene: &mut Scene,
         file: &Path,
         console: &Console,
-    ) -> Result<(), Failure> {
+    ) -> Result<bool, Failure> {
         self.prepare_scenes(&mut [scene], file, console)
     }
 
@@ -55,7 +55,7 @@ impl AllowProgram {
         scenes: &mut [&mut Scene],
         file: &Path,
         console: &Console,
-    ) -> Result<(), Failure> {
+    ) -> Result<bool, Failure> {
         let programs = || scenes.iter().filter_map(|scene| scene.program.as_ref());
         let mut names: Vec<String> = programs()
             .flat_map(ExternalProgram::programs)
@@ -64,7 +64,7 @@ impl AllowProgram {
         names.sort_unstable();
         names.dedup();
         if names.is_empty() {
-            return Ok(());
+            return Ok(false);
         }
         if !self.allow_program && !is_listed(file)? {
             return Err(refuse(&names.join(", "), file));
@@ -85,15 +85,24 @@ impl AllowProgram {
             };
             program.found_version = Some(found);
         }
-        Ok(())
+        Ok(true)
     }
 }
 
 /// Gives the programs of a sweep the versions that a results folder keeps of them, if it does.
-/// Starts none.
-pub(super) fn take_versions(sweep: &mut Sweep, folder: &Folder) {
+/// Starts none. Returns whether a version was found.
+pub(super) fn take_versions(sweep: &mut Sweep, folder: &Folder) -> bool {
+    let asks = |scene: &&mut Scene| {
+        scene
+            .program
+            .as_ref()
+            .is_some_and(|it| !it.version.is_empty())
+    };
+    if !scenes_of(sweep).iter().any(asks) {
+        return false;
+    }
     let Ok(mut stored) = folder.read_sweep() else {
-        return;
+        return false;
     };
     let stored: Vec<ExternalProgram> = scenes_of(&mut stored)
         .iter()
@@ -105,6 +114,7 @@ pub(super) fn take_versions(sweep: &mut Sweep, folder: &Folder) {
             program.found_version = same.and_then(|it| it.found_version.clone());
         }
     }
+    true
 }
 
 /// All scenes of a sweep.
@@ -119,7 +129,9 @@ fn refuse(names: &str, file: &Path) -> Failure {
         Some(path) => format!(
             ", or list the file or its folder in {}: `programs = [\"{}\"]`",
             path.display(),
-            file.canonicalize().unwrap_or_else(|_| file.to_owned()).display()
+            file.canonicalize()
+                .unwrap_or_else(|_| file.to_owned())
+                .display()
         ),
         None => String::new(),
     };
@@ -154,7 +166,11 @@ fn is_listed(file: &Path) -> Result<bool, Failure> {
 
 /// The user's own configuration.
 fn configuration_file() -> Option<PathBuf> {
-    let set = |name| env::var_os(name).filter(|it| !it.is_empty()).map(PathBuf::from);
+    let set = |name| {
+        env::var_os(name)
+            .filter(|it| !it.is_empty())
+            .map(PathBuf::from)
+    };
     let folder = set("XDG_CONFIG_HOME").or_else(|| Some(set("HOME")?.join(".config")));
     Some(folder?.join("phase").join("config.toml"))
 }

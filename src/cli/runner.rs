@@ -50,7 +50,7 @@ impl Runner<'_> {
         let begin = |job: &Job| {
             let scene = job.scene();
             match scene.is_external() {
-                true => external::begin(&scene, self.folder.workplace(&job.id)),
+                true => external::begin(&scene, self.folder.run_folder(&job.id)),
                 false => Run::new(&scene),
             }
         };
@@ -63,7 +63,11 @@ impl Runner<'_> {
                 resume: !self.force,
                 ..Wishes::default()
             },
-            ..Pool::new(self.folder, sweep, &LocalThreads::new(self.workers).beginning(&begin))
+            ..Pool::new(
+                self.folder,
+                sweep,
+                &LocalThreads::new(self.workers).beginning(&begin),
+            )
         })
     }
 
@@ -239,7 +243,10 @@ impl RunsMade {
                 text += &format!(", {number} {what}");
             }
         }
-        if *finished > 0 {
+        if *finished > 0 && sweep.scene.is_external() {
+            let time = format::duration(*cpu_seconds);
+            text += &format!("\ntheir programs took {time}");
+        } else if *finished > 0 {
             let unit = model_of(&sweep.scene).work_unit();
             text += &format!(
                 "\n{} in {} of CPU time: {} per CPU second",

@@ -50,6 +50,11 @@ pub(super) fn tell_of_scene(scene: &Scene, console: &Console) {
     note_coarse(standings.iter(), console);
 }
 
+/// Whether a scene has no steps that could be too long.
+fn has_no_step(scene: &Scene) -> bool {
+    scene.spot.is_some() || scene.is_external()
+}
+
 /// As [`tell_of_scene`], for the point of a sweep that is nearest its limit.
 pub(super) fn tell_of_jobs(jobs: &[Job], axes: &[Axis], console: &Console) {
     let tightest = tightest_limits(jobs);
@@ -59,7 +64,7 @@ pub(super) fn tell_of_jobs(jobs: &[Job], axes: &[Axis], console: &Console) {
             let scene = &nearest.job.scene();
             console.note(describe_step(scene, Some(&nearest.standing), &at));
         }
-        None if jobs.iter().all(|job| job.scene().spot.is_some()) => {}
+        None if jobs.iter().all(|job| has_no_step(&job.scene())) => {}
         None => console
             .note("time step: nothing in these scenes sets a limit beyond which it is refused"),
     }

@@ -1,7 +1,7 @@
 //! The frames of a run, from the tables that its program left.
 
+use super::run_folder::RunFolder;
 use super::table::{self, Table};
-use super::workplace::Workplace;
 use crate::scene::{ExternalProgram, ProgramTable};
 
 /// The rows that all tables have.
@@ -18,11 +18,11 @@ impl Frames {
     pub(super) fn read(
         program: &ExternalProgram,
         files: &[String],
-        workplace: &Workplace,
+        run_folder: &RunFolder,
     ) -> Result<Self, String> {
         let mut all: Option<Self> = None;
         for (asked, file) in program.read.iter().zip(files) {
-            let path = workplace.path().join(file);
+            let path = run_folder.path().join(file);
             let most = program.most_bytes as u64;
             let table = table::read(&path, asked.format, &asked.header, most);
             let own = Self::of(asked, table.map_err(|it| it.to_string())?)
@@ -92,7 +92,8 @@ impl Frames {
                 there + usize::from(others <= own),
             );
         }
-        let rows = |column: &Vec<f64>, rows: &[usize]| rows.iter().map(|&row| column[row]).collect();
+        let rows =
+            |column: &Vec<f64>, rows: &[usize]| rows.iter().map(|&row| column[row]).collect();
         let own = self.columns.iter().map(|it| rows(it, &kept));
         let others = other.columns.iter().map(|it| rows(it, &kept_there));
         Self {
@@ -115,7 +116,9 @@ mod tests {
                     .lines()
                     .map(|it| it.split(' ').map(|it| it.parse().unwrap()).collect())
                     .collect();
-                (0..2).map(|k| rows.iter().map(|row| row[k]).collect()).collect()
+                (0..2)
+                    .map(|k| rows.iter().map(|row| row[k]).collect())
+                    .collect()
             },
         };
         let asked = ProgramTable {
@@ -130,7 +133,10 @@ mod tests {
 
     #[test]
     fn rows_of_two_tables_go_together_by_their_times() {
-        let (fine, coarse) = (frames("0 1\n1 2\n2 3\n4 5").unwrap(), frames("1 7\n3 8\n4 9").unwrap());
+        let (fine, coarse) = (
+            frames("0 1\n1 2\n2 3\n4 5").unwrap(),
+            frames("1 7\n3 8\n4 9").unwrap(),
+        );
         let joined = fine.join(coarse);
         assert_eq!(joined.time, [1.0, 4.0]);
         assert_eq!(joined.columns, [[2.0, 5.0], [7.0, 9.0]]);
@@ -138,7 +144,13 @@ mod tests {
 
     #[test]
     fn times_must_grow() {
-        for text in ["0 1\n0 2", "0 1\n2 1\n1 1", "nan 1\n1 1", "0 1\nnan 1", "0 1\ninf 1"] {
+        for text in [
+            "0 1\n0 2",
+            "0 1\n2 1\n1 1",
+            "nan 1\n1 1",
+            "0 1\nnan 1",
+            "0 1\ninf 1",
+        ] {
             let error = frames(text).unwrap_err();
             assert!(error.contains("does not grow in row"), "{text}: {error}");
         }

@@ -7,14 +7,14 @@
 
 mod frames;
 mod process;
+mod run_folder;
 mod simulation;
 mod states;
 pub mod table;
 mod version;
-mod workplace;
 
+pub use run_folder::RunFolder;
 pub use version::{VersionError, find_version};
-pub use workplace::Workplace;
 
 use crate::run::Run;
 use crate::scene::Scene;
@@ -30,7 +30,7 @@ struct NoProgram;
 /// The folder of a run cannot be made.
 #[derive(Debug, thiserror::Error)]
 #[error("{}: {source}{}", path.display(), crate::document::advice(source))]
-struct NoWorkplace {
+struct NoRunFolder {
     path: std::path::PathBuf,
     source: io::Error,
 }
@@ -41,13 +41,12 @@ struct NoWorkplace {
 ///
 /// # Errors
 /// If the scene has no program, or the folder cannot be made or is of something else.
-pub fn begin(scene: &Scene, workplace: Workplace) -> Result<Run, BuildError> {
+pub fn begin(scene: &Scene, run_folder: RunFolder) -> Result<Run, BuildError> {
     let (Some(program), Some(filled)) = (&scene.program, scene.filled_program()) else {
         return Err(BuildError::new(NoProgram));
     };
-    let path = workplace.path().to_owned();
-    let simulation = ExternalSimulation::new(program.clone(), filled, workplace);
-    let simulation =
-        simulation.map_err(|source| BuildError::new(NoWorkplace { path, source }))?;
+    let path = run_folder.path().to_owned();
+    let simulation = ExternalSimulation::new(program.clone(), filled, run_folder);
+    let simulation = simulation.map_err(|source| BuildError::new(NoRunFolder { path, source }))?;
     Ok(Run::with_simulation(scene, Box::new(simulation)))
 }

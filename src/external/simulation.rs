@@ -2,13 +2,11 @@
 
 use super::frames::Frames;
 use super::process::Process;
+use super::run_folder::RunFolder;
 use super::states;
-use super::workplace::Workplace;
 use crate::document::lasting;
 use crate::scene::{ExternalProgram, FilledProgram, ProgramColumn};
-use crate::simulation::{
-    Column, Frame, FrameView, Instability, Simulation, Snapshot, StateError,
-};
+use crate::simulation::{Column, Frame, FrameView, Instability, Simulation, Snapshot, StateError};
 use std::fs::File;
 use std::io;
 use std::process::ExitStatus;
@@ -21,7 +19,7 @@ const WEIGHING: Duration = Duration::from_secs(1);
 pub(super) struct ExternalSimulation {
     program: ExternalProgram,
     filled: FilledProgram,
-    workplace: Workplace,
+    run_folder: RunFolder,
     columns: Vec<Column>,
     stage: Stage,
     /// How often it has failed.
@@ -60,14 +58,14 @@ impl ExternalSimulation {
     pub(super) fn new(
         program: ExternalProgram,
         filled: FilledProgram,
-        workplace: Workplace,
+        run_folder: RunFolder,
     ) -> io::Result<Self> {
         let resumed = filled.resume.clone();
-        let resumed = resumed.filter(|(file, _)| workplace.goes_on_from(file));
+        let resumed = resumed.filter(|(file, _)| run_folder.goes_on_from(file));
         let commands = match resumed {
             Some((_, commands)) => commands,
             None => {
-                workplace.make(&filled.files)?;
+                run_folder.make(&filled.files)?;
                 filled.commands.clone()
             }
         };
@@ -80,7 +78,7 @@ impl ExternalSimulation {
             columns: program.columns().map(column).collect(),
             program,
             filled,
-            workplace,
+            run_folder,
             stage: Stage::Ready(Commands {
                 all: commands,
                 at: 0,
@@ -102,13 +100,15 @@ impl ExternalSimulation {
         let program = words.first().map_or("", String::as_str);
         let refuse = |error: io::Error| match error.kind() {
             io::ErrorKind::NotFound => {
-                format!("cannot start `{program}`: there is no such program; install it, or write \
-                         its full path")
+                format!(
+                    "cannot start `{program}`: there is no such program; install it, or write \
+                         its full path"
+                )
             }
             _ => format!("cannot start `{program}`: {error}"),
         };
-        let output: File = self.workplace.open_output().map_err(refuse)?;
-        let process = Process::start(words, self.workplace.path(), &output).map_err(refuse)?;
+        let output: File = self.run_folder.open_output().map_err(refuse)?;
+        let process = Process::start(words, self.run_folder.path(), &output).map_err(refuse)?;
         Ok(Stage::Running(commands, process, Instant::now()))
     }
 
@@ -120,7 +120,9 @@ impl ExternalSimulation {
         weighed: Instant,
     ) -> Result<Stage, String> {
         let words = commands.all[commands.at].join(" ");
-        let status = process.look().map_err(|error| format!("`{words}`: {error}"))?;
+        let status = process
+            .look()
+            .map_err(|error| format!("`{words}`: {error}"))?;
         if let Some(status) = status {
             self.spent += process.age();
             if !self.is_success(status) {
@@ -139,7 +141,8 @@ impl ExternalSimulation {
         let mut weighed = weighed;
         if weighed.elapsed() >= WEIGHING {
             weighed = Instant::now();
-            self.weigh().map_err(|reason| format!("`{words}` {reason} and was ended"))?;
+            self.weigh()
+                .map_err(|reason| format!("`{words}` {reason} and was ended"))?;
         }
         Ok(Stage::Running(commands, process, weighed))
     }
@@ -147,8 +150,10 @@ impl ExternalSimulation {
     /// Refuses a folder that has become too large.
     fn weigh(&self) -> Result<(), String> {
         let most = self.program.most_bytes;
-        match self.workplace.size() as f64 > most {
-            true => Err(format!("left more than `program.most_bytes` = {most} bytes")),
+        match self.run_folder.size() as f64 > most {
+            true => Err(format!(
+                "left more than `program.most_bytes` = {most} bytes"
+            )),
             false => Ok(()),
         }
     }
@@ -159,8 +164,9 @@ impl ExternalSimulation {
     }
 
     fn read(&self) -> Result<Frames, String> {
-        self.weigh().map_err(|reason| format!("the program {reason}"))?;
-        Frames::read(&self.program, &self.filled.tables, &self.workplace)
+        self.weigh()
+            .map_err(|reason| format!("the program {reason}"))?;
+        Frames::read(&self.program, &self.filled.tables, &self.run_folder)
     }
 
     /// Reads the states, if there are any.
@@ -168,7 +174,7 @@ impl ExternalSimulation {
         let Some((file, radius)) = &self.filled.states else {
             return Ok(());
         };
-        let (snapshots, count) = states::read(file, &self.workplace)?;
+        let (snapshots, count) = states::read(file, &self.run_folder)?;
         self.radius = vec![*radius; count];
         self.mass = vec![f64::NAN; count];
         self.snapshots = Some(snapshots);
@@ -181,7 +187,7 @@ impl ExternalSimulation {
         self.seconds += self.spent.as_secs_f64();
         self.spent = Duration::ZERO;
         let again = self.failures <= self.program.retries;
-        if again && self.workplace.make(&self.filled.files).is_ok() {
+        if again && self.run_folder.make(&self.filled.files).is_ok() {
             let all = self.filled.commands.clone();
             return Stage::Ready(Commands { all, at: 0 });
         }
@@ -189,11 +195,11 @@ impl ExternalSimulation {
         if self.program.retries > 0 {
             told += &format!(", in {} of as many attempts", self.failures);
         }
-        let lines = self.workplace.last_lines();
+        let lines = self.run_folder.last_lines();
         if !lines.is_empty() {
             told += &format!("; its last lines: {lines}");
         }
-        self.workplace.note_failure(&told);
+        self.run_folder.note_failure(&told);
         Stage::Failed(told)
     }
 }
@@ -217,9 +223,7 @@ impl Simulation for ExternalSimulation {
             Stage::Failed(reason) => Ok(Stage::Failed(reason)),
         };
         let next = match next {
-            Ok(Stage::Showing(frames, 0)) => self
-                .read_states()
-                .map(|()| Stage::Showing(frames, 0)),
+            Ok(Stage::Showing(frames, 0)) => self.read_states().map(|()| Stage::Showing(frames, 0)),
             next => next,
         };
         self.stage = match next {
@@ -303,7 +307,9 @@ impl Simulation for ExternalSimulation {
     }
 
     fn save(&self, _to: &mut dyn io::Write) -> io::Result<()> {
-        Err(io::Error::other("the state of another program cannot be saved"))
+        Err(io::Error::other(
+            "the state of another program cannot be saved",
+        ))
     }
 
     fn restore(&mut self, _state: &[u8]) -> Result<(), StateError> {

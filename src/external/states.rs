@@ -1,6 +1,6 @@
 //! States of spheres that another program left.
 
-use super::workplace::Workplace;
+use super::run_folder::RunFolder;
 use crate::replay::{StateTime, WrittenState};
 use crate::simulation::Snapshot;
 use crate::store;
@@ -12,8 +12,8 @@ const MOST_COORDINATES: usize = 100_000_000;
 
 /// The states in a file of the folder, with the number of spheres. Velocities are unknown, and the
 /// places of spheres that a state lacks: they are not numbers.
-pub(super) fn read(file: &str, workplace: &Workplace) -> Result<(Vec<Snapshot>, usize), String> {
-    let path = workplace.path().join(file);
+pub(super) fn read(file: &str, run_folder: &RunFolder) -> Result<(Vec<Snapshot>, usize), String> {
+    let path = run_folder.path().join(file);
     let states = store::read_states(&path).map_err(|error| error.to_string())?;
     let numbers = states.iter().flat_map(|it| &it.spheres).map(|it| (it.0, 0));
     let mut places: BTreeMap<u64, usize> = numbers.collect();

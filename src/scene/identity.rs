@@ -3,7 +3,8 @@
 use super::{Contact, Door, Friction, Geometry, Outlet, Rest, Rolling};
 use super::{
     DemScene, Driven, Effects, ExternalProgram, Guards, Neighbours, Output, Parameters,
-    ProgramResume, ProgramStates, ProgramTable, Scene, Spheres, Spot, Start, Steady, Tank, TemplateFile, Time,
+    ProgramResume, ProgramStates, ProgramTable, Scene, Spheres, Spot, Start, Steady, Tank,
+    TemplateFile, Time,
 };
 use serde::Serialize;
 

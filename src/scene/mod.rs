@@ -43,11 +43,11 @@ pub(crate) use files::in_start_file;
 pub use keys::Notation;
 pub(crate) use keys::{leaf, may_hold};
 pub use output::Output;
+use program::absent;
 pub use program::{
     DescribedColumn, ExternalProgram, FilledProgram, Keep, Parameters, ProgramColumn,
     ProgramResume, ProgramStates, ProgramTable, TableFormat, TemplateFile, TemplateText,
 };
-use program::absent;
 pub use radius::{Radii, RadiusShare};
 pub use spheres::{Shape, Spheres};
 pub(crate) use spot::STICKING_OUT;
@@ -87,7 +87,10 @@ pub struct Scene {
     #[schemars(transform = quantity("seed", "", "seed"))]
     pub seed: u64,
     /// The spheres: how many, how large, how heavy.
-    #[serde(default = "absent::spheres", skip_serializing_if = "absent::are_spheres")]
+    #[serde(
+        default = "absent::spheres",
+        skip_serializing_if = "absent::are_spheres"
+    )]
     pub spheres: Spheres,
     /// The tank's walls. Absent: unbounded space.
     #[serde(default, skip_serializing_if = "Option::is_none")]

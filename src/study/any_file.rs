@@ -102,6 +102,18 @@ impl AnyStudy {
         }
     }
 
+    /// The same, to be changed.
+    pub fn comparison_mut(&mut self) -> Option<&mut Comparison> {
+        match self {
+            Self::Stability(study) => Some(&mut study.comparison),
+            Self::Ablation(study) => Some(&mut study.comparison),
+            Self::Accuracy(study) => match &mut study.subject {
+                Subject::Scene(comparison) => Some(comparison),
+                Subject::Case(_) => None,
+            },
+        }
+    }
+
     /// Which study it is.
     pub fn name(&self) -> StudyName {
         match self {

@@ -3,7 +3,7 @@
 use super::plan::standing;
 use super::{Job, Refining, Standing, Sweep, read_failures};
 use crate::classify::{LabelRow, LabelTable};
-use crate::external::Workplace;
+use crate::external::RunFolder;
 use crate::grid::Axis;
 use crate::record::RunRecord;
 use crate::refusal::Refusal;
@@ -280,8 +280,8 @@ impl Folder {
     }
 
     /// The folder in which the program of the run with that identity runs.
-    pub fn workplace(&self, id: &str) -> Workplace {
-        Workplace::beside(&self.record(id))
+    pub fn run_folder(&self, id: &str) -> RunFolder {
+        RunFolder::beside(&self.record(id))
     }
 
     /// Reads the record of the run with that identity.

@@ -4,7 +4,7 @@ use super::backend::{Claim, Results};
 use super::failures::FailureTable;
 use super::plan::Plan;
 use super::{Failure, Folder, Job, Pool, Sweep};
-use crate::external::Workplace;
+use crate::external::RunFolder;
 use crate::grid::Axis;
 use crate::record::RunRecord;
 use crate::resume::Checkpoints;
@@ -77,7 +77,7 @@ impl Results for Records<'_> {
     fn keep(&self, job: &Job, record: &RunRecord) -> Result<(), StoreError> {
         let path = self.folder.record(&job.id);
         store::write_record(record, &path)?;
-        Workplace::beside(&path).tidy(&record.scene);
+        RunFolder::beside(&path).tidy(&record.scene);
         Ok(())
     }
 

@@ -12,6 +12,7 @@ mod cost;
 mod drainage_figures;
 mod drainages;
 mod editors;
+mod external;
 mod figures;
 mod fit;
 mod folders;

@@ -32,7 +32,6 @@ impl<'a> SceneNames<'a> {
     }
 }
 
-
 impl Names for SceneNames<'_> {
     fn column(&self, name: &str) -> Option<Unit> {
         let unit = self.columns().find(|column| column.0 == name)?.1;

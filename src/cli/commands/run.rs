@@ -13,7 +13,7 @@ use again::Original;
 use answer::{Answer, summary};
 use interruptible::Ran;
 use phase::document::Problem;
-use phase::external::Workplace;
+use phase::external::RunFolder;
 use phase::record::RunRecord;
 use phase::resume::{Checkpoints, DEFAULT_INTERVAL};
 use phase::run::{Edits, frame_of_state};
@@ -133,9 +133,9 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     let checkpoints = Checkpoints::beside(&path, interval);
     let signature = store::CHECKPOINT_SIGNATURE;
     folders::refuse_to_replace(checkpoints.path(), "a checkpoint", signature)?;
-    let workplace = Workplace::beside(&path);
+    let run_folder = RunFolder::beside(&path);
     let ran = interruptible::run(
-        (&scene, &workplace),
+        (&scene, &run_folder),
         arguments.threads,
         &checkpoints,
         arguments.resume,
@@ -150,7 +150,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         return Ok(Exit::Interrupted);
     };
     write(&mut record, &path, &checkpoints, original.is_some())?;
-    workplace.tidy(&record.scene);
+    run_folder.tidy(&record.scene);
     console.result(summary(&record, seconds));
     console.file(&path);
     if let Some(table) = &table {

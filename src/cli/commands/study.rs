@@ -9,6 +9,7 @@ use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::figures;
 use crate::cli::options::{Ablate, Workers};
+use crate::cli::programs::AllowProgram;
 use crate::cli::values;
 use phase::plot::{PlotError, Svg};
 use phase::store::{self, StoreError};
@@ -58,6 +59,8 @@ pub(crate) struct Arguments {
     out: Option<PathBuf>,
     #[command(flatten)]
     workers: Workers,
+    #[command(flatten)]
+    program: AllowProgram,
     /// Make every run again, whatever the results folder holds.
     #[arg(short, long)]
     force: bool,
@@ -86,9 +89,15 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         ("--tolerance", arguments.tolerance.is_some()),
         ("--no-pairs", arguments.no_pairs),
     ];
-    let study = arguments
+    let mut study = arguments
         .ablate
         .load(&arguments.file, arguments.tolerance, &given)?;
+    if let Some(comparison) = study.comparison_mut() {
+        let (program, sweep) = (&arguments.program, &mut comparison.sweep);
+        if program.prepare(sweep, &arguments.file, console)? {
+            comparison.choose_runs()?;
+        }
+    }
     match study {
         AnyStudy::Stability(study) => arguments.run(*study, console),
         AnyStudy::Ablation(study) => arguments.run(*study, console),

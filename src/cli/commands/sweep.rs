@@ -82,7 +82,9 @@ pub(crate) struct Arguments {
 
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
     let mut sweep = phase::sweep::load(&arguments.file)?;
-    arguments.program.prepare(&mut sweep, &arguments.file, console)?;
+    arguments
+        .program
+        .prepare(&mut sweep, &arguments.file, console)?;
     choose_runs(&mut sweep, arguments)?;
     let workers = arguments.workers.count();
     let jobs = sweep.jobs()?;

@@ -74,7 +74,10 @@ impl Scene {
         matches!(self.spheres.radius, Radii::File { .. })
             || matches!(self.dem.geometry, Some(Geometry::File { .. }))
             || matches!(self.start, Start::File { .. })
-            || self.program.as_ref().is_some_and(|it| it.texts().count() < it.files.len())
+            || self
+                .program
+                .as_ref()
+                .is_some_and(|it| it.texts().count() < it.files.len())
     }
 
     /// Replaces the names of files, relative to `folder`, by their contents.

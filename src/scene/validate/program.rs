@@ -41,7 +41,11 @@ impl Scene {
             let path = format!("parameters.{name}");
             if ExternalProgram::NAMES.contains(&name.as_str()) {
                 let message = format!("`@{{{name}}}` is the seed of the run");
-                problems.push(Problem::new(path, message).help("use another name").at_key());
+                problems.push(
+                    Problem::new(path, message)
+                        .help("use another name")
+                        .at_key(),
+                );
             } else if !is_name(name) {
                 let message = format!("`{name}` is no name of a parameter");
                 let help = "use letters, digits and `_`, a letter first";
@@ -61,7 +65,8 @@ impl Scene {
             .chain(of_resume.map(|it| ("program.resume.commands", it)));
         for (path, commands) in all {
             if commands.is_empty() {
-                let help = "write the program and its words, such as `[[\"python3\", \"model.py\"]]`";
+                let help =
+                    "write the program and its words, such as `[[\"python3\", \"model.py\"]]`";
                 problems.push(Problem::new(path, "there is no command").help(help));
             }
             for (place, words) in commands.iter().enumerate() {
@@ -108,7 +113,10 @@ impl Scene {
             self.check_marks(&file.text, &format!("{path}.text"), &shown, problems);
         }
         for (file, path) in [
-            (program.states.as_ref().map(|it| &it.file), "program.states.file"),
+            (
+                program.states.as_ref().map(|it| &it.file),
+                "program.states.file",
+            ),
             (
                 program.resume.as_ref().map(|it| &it.file),
                 "program.resume.file",
@@ -194,8 +202,10 @@ impl Scene {
                     };
                     let known = one_of(&known);
                     let message = format!("`@{{{name}}}` stands for nothing");
-                    let help = format!("{help}[parameters] and the run have {known}; `@@{{` \
-                                        writes `@{{` itself");
+                    let help = format!(
+                        "{help}[parameters] and the run have {known}; `@@{{` \
+                                        writes `@{{` itself"
+                    );
                     (place, message, help)
                 }
                 Piece::Open(place) => {
@@ -295,7 +305,8 @@ pub(in crate::scene) fn complete(tree: &mut Value) -> Vec<Problem> {
         parts.any(|(name, part)| name == key && part == value)
     };
     let keys = tree.as_object().into_iter().flatten();
-    let others = keys.filter(|(key, value)| !KEPT.contains(&key.as_str()) && !is_absent(key, value));
+    let others =
+        keys.filter(|(key, value)| !KEPT.contains(&key.as_str()) && !is_absent(key, value));
     let refuse = |key: &String| {
         let message = format!("`{key}` means nothing in a scene of another program");
         let help = "remove it; what the program is given stands in [parameters]";

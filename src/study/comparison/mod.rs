@@ -23,7 +23,7 @@ pub use shift::Shift;
 pub use states::{ShiftOf, States};
 pub use table::{RunRow, RunTable, RunTableError};
 
-use crate::grid::{Axis, PointError, Variant, number_of_points};
+use crate::grid::{self, Axis, PointError, Variant, number_of_points};
 use crate::scene::Change;
 use crate::sweep::{Job, Sweep};
 use std::collections::HashMap;
@@ -80,24 +80,36 @@ impl Comparison {
         measurement: Measurement,
     ) -> Result<Self, PointError> {
         let (settings, variants): (Vec<_>, Vec<_>) = settings.into_iter().unzip();
-        let sweep = with_variants(base, variants);
-        let places = (0..settings.len()).map(|place| place as f64);
-        let points = places.flat_map(|place| {
-            let points = base.grid();
-            points.map(move |values| [values, vec![place]].concat())
-        });
-        let seeds = &base.seeds;
-        let all = points.flat_map(|values| seeds.iter().map(move |seed| (values.clone(), *seed)));
         let mut comparison = Self {
-            runs: vec![Vec::new(); settings.len()],
+            runs: Vec::new(),
             settings,
             reference,
             measurement,
             jobs: Vec::new(),
-            sweep,
+            sweep: with_variants(base, variants),
         };
-        comparison.share(comparison.sweep.jobs_at(all)?);
+        comparison.choose_runs()?;
         Ok(comparison)
+    }
+
+    /// Chooses the runs of all settings anew, after the scenes of its sweep have changed.
+    ///
+    /// # Errors
+    /// The first point whose scene cannot be run.
+    pub fn choose_runs(&mut self) -> Result<(), PointError> {
+        let points: Vec<Vec<f64>> = grid::points(self.axes()).collect();
+        let places = (0..self.settings.len()).map(|place| place as f64);
+        let points = places.flat_map(|place| {
+            let points = points.iter();
+            points.map(move |values| [values.as_slice(), &[place]].concat())
+        });
+        let seeds = &self.sweep.seeds;
+        let all = points.flat_map(|values| seeds.iter().map(move |seed| (values.clone(), *seed)));
+        let all = self.sweep.jobs_at(all)?;
+        self.jobs.clear();
+        self.runs = vec![Vec::new(); self.settings.len()];
+        self.share(all);
+        Ok(())
     }
 
     /// Takes all runs in their order, each once.

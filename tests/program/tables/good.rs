@@ -1,7 +1,7 @@
 //! Files that are read.
 
 use super::{MOST, data, owned, read_bytes};
-use phase::scene::TableFormat::{self, LammpsAverage, Csv, Numpy, Text, LammpsLog};
+use phase::scene::TableFormat::{self, Csv, LammpsAverage, LammpsLog, Numpy, Text};
 
 const NAN: f64 = f64::NAN;
 const INFINITY: f64 = f64::INFINITY;
@@ -144,7 +144,7 @@ fn python() {
     let count = &[1.0, 2.0, 3.0, 4.0][..];
     let row = &[0.0, 1.0, 2.0, 3.0][..];
     let both = &["time", "energy"][..];
-    let cases: &[(&str, Format, Names<'_>, Names<'_>, Columns<'_>)] = &[
+    let cases: &[(&str, TableFormat, Names<'_>, Names<'_>, Columns<'_>)] = &[
         ("savetxt.csv", Csv, &[], both, &[time, energy]),
         (
             "pandas.csv",

@@ -1,7 +1,7 @@
 //! Any numbers are kept, and any bytes are read or refused.
 
 use super::{MOST, data, read_bytes};
-use help_read::table::Format;
+use phase::scene::TableFormat;
 use proptest::prelude::*;
 
 fn number() -> impl Strategy<Value = f64> {
@@ -38,7 +38,7 @@ fn npy(shape: &str, is_fortran: &str, values: &[f64]) -> Vec<u8> {
 }
 
 /// Files of each format, to be damaged.
-fn valid() -> Vec<(Format, Vec<u8>)> {
+fn valid() -> Vec<(TableFormat, Vec<u8>)> {
     let files = [
         (TableFormat::Csv, "pandas.csv"),
         (TableFormat::Text, "savetxt.txt"),
@@ -51,7 +51,6 @@ fn valid() -> Vec<(Format, Vec<u8>)> {
     files.map(|(format, name)| (format, data(name))).to_vec()
 }
 
-/// What was read is a table as it is promised.
 /// All formats.
 const FORMATS: [TableFormat; 5] = [
     TableFormat::Csv,
@@ -61,6 +60,7 @@ const FORMATS: [TableFormat; 5] = [
     TableFormat::Numpy,
 ];
 
+/// What was read is a table as it is promised.
 fn check(bytes: &[u8], format: TableFormat, names: &[&str]) {
     match read_bytes("file", bytes, format, names, MOST) {
         Ok(table) => {

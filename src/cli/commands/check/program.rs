@@ -29,7 +29,10 @@ pub(super) fn describe_programs(sweep: &Sweep, jobs: &[Job], console: &Console) 
         }
         shown.push(kind);
         let at = describe(&sweep.axes, &job.values, job.seed);
-        console.result(line("program", format_args!("at {at}, in a folder of its own:")));
+        console.result(line(
+            "program",
+            format_args!("at {at}, in a folder of its own:"),
+        ));
         for words in &filled.commands {
             let words: Vec<String> = words.iter().map(|word| quoted(word)).collect();
             console.result(line("", words.join(" ")));

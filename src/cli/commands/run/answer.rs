@@ -116,15 +116,12 @@ pub(super) fn summary(record: &RunRecord, seconds: f64) -> String {
         Outcome::Completed => "completed".to_owned(),
         Outcome::Unstable(instability) => format!("unstable: {instability}"),
     };
-    text += &format!(
-        "\n  {:<14} {} ({})",
-        "took",
-        format::duration(seconds),
-        format::rate(
-            steps / record.cpu_seconds.max(1e-9),
-            model_of(&record.scene).work_unit()
-        )
-    );
+    text += &format!("\n  {:<14} {}", "took", format::duration(seconds));
+    if !record.scene.is_external() {
+        let rate = steps / record.cpu_seconds.max(1e-9);
+        let unit = model_of(&record.scene).work_unit();
+        text += &format!(" ({})", format::rate(rate, unit));
+    }
     text += &format!("\n  {:<14} {}", "frames", observations.frames());
     for milestone in &record.milestones {
         text += &format!(

@@ -5,7 +5,7 @@ use crate::cli::exit::Failure;
 use crate::cli::format;
 use crate::cli::interrupt;
 use crate::cli::progress::{Progress, Work};
-use phase::external::{self, Workplace};
+use phase::external::{self, RunFolder};
 use phase::record::RunRecord;
 use phase::resume::{Checkpoints, Ending};
 use phase::run::{self, Run};
@@ -26,7 +26,7 @@ pub(super) struct Ran {
 /// Runs a scene on this number of threads, with a progress bar and checkpoints. If it is
 /// interrupted, says how to continue and returns `None`.
 pub(super) fn run(
-    (scene, workplace): (&Scene, &Workplace),
+    (scene, run_folder): (&Scene, &RunFolder),
     threads: usize,
     checkpoints: &Checkpoints,
     resume: bool,
@@ -34,7 +34,7 @@ pub(super) fn run(
 ) -> Result<Option<Ran>, Failure> {
     let stop = interrupt::stop_on_signal(console)?;
     let begun = match scene.is_external() {
-        true => external::begin(scene, workplace.clone()),
+        true => external::begin(scene, run_folder.clone()),
         false => Run::new(scene),
     };
     let mut run = begun.map_err(Failure::failed)?;

@@ -19,11 +19,11 @@ const SHOWN: (usize, usize) = (6, 200);
 
 /// The folder of a run of another program.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Workplace {
+pub struct RunFolder {
     path: PathBuf,
 }
 
-impl Workplace {
+impl RunFolder {
     /// `NAME.run` beside the record `NAME.h5`.
     pub fn beside(record: &Path) -> Self {
         let is_plain = record.extension().is_some_and(|it| it == "h5");
@@ -83,7 +83,11 @@ impl Workplace {
     /// Removes it after a run that ended well, if the scene says so. One that cannot be removed does
     /// no harm.
     pub fn tidy(&self, scene: &Scene) {
-        if scene.program.as_ref().is_some_and(|it| it.keep == Keep::Failed) {
+        if scene
+            .program
+            .as_ref()
+            .is_some_and(|it| it.keep == Keep::Failed)
+        {
             let _ = self.remove();
         }
     }
@@ -116,7 +120,11 @@ impl Workplace {
             let signs = line.trim().chars().filter(|it| !it.is_control());
             signs.take(SHOWN.1).collect()
         };
-        let lines: Vec<String> = text.lines().map(plain).filter(|it| !it.is_empty()).collect();
+        let lines: Vec<String> = text
+            .lines()
+            .map(plain)
+            .filter(|it| !it.is_empty())
+            .collect();
         let first = lines.len().saturating_sub(SHOWN.0);
         lines[first..].join(" | ")
     }

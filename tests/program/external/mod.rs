@@ -1,0 +1,59 @@
+//! Other programs behind the sweep: small scripts of the shell, and real programs.
+
+mod failures;
+mod ising;
+mod lammps;
+mod leave;
+mod marks;
+mod results;
+mod stops;
+mod studies;
+mod versions;
+
+use crate::support::Workplace;
+
+/// A sweep over `x` that runs a script of the shell, which may use marks and writes the columns
+/// `t` and `y` to `out.csv`. `more` goes into the table of the program.
+pub(crate) fn sweep_of(script: &str, values: &str, more: &str) -> String {
+    format!(
+        r#"
+[scene.program]
+commands = [["sh", "model.sh"]]
+files = [{{ name = "model.sh", text = '''
+{script}
+''' }}]
+units = {{ x = "m", time = "s" }}
+{more}
+
+[[scene.program.read]]
+file = "out.csv"
+time = "t"
+columns = [{{ name = "y", unit = "m", description = "Place" }}]
+
+[scene.parameters]
+x = 1.0
+
+[[axis]]
+key = "parameters.x"
+values = {values}
+
+[[label]]
+name = "far"
+when = "last(y) > 2[m]"
+
+[[label]]
+name = "near"
+when = "last(y) <= 2[m]"
+"#
+    )
+}
+
+/// Writes two frames: `y` is 0, then `x`.
+pub(crate) const MODEL: &str = "printf 't,y\\n0,0\\n1.5,@{x}\\n' > out.csv";
+
+/// A folder with the sweep `model.toml`.
+pub(crate) fn place_of(script: &str, values: &str, more: &str) -> Workplace {
+    let place = Workplace::new();
+    place.write("model.toml", &sweep_of(script, values, more));
+    place
+}
