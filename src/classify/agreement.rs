@@ -17,6 +17,9 @@ pub struct Agreement {
     pub equal: usize,
     /// Runs or points that the other table does not have, of each.
     pub alone: [usize; 2],
+    /// The chance that two seeds of a point have one label, in each: what two programs that do the
+    /// same would agree in. None without points of several seeds.
+    pub between_seeds: [Option<f64>; 2],
     /// The measures that both tables have, in their order.
     pub measures: Vec<MeasureDifference>,
 }
@@ -64,7 +67,10 @@ impl Agreement {
         for (by_runs, entries) in [(true, runs as fn(&LabelTable) -> _), (false, points)] {
             let found = Self::of_entries(one, by_runs, &entries(one), &entries(other));
             if found.pairs > 0 {
-                return Ok(found);
+                return Ok(Self {
+                    between_seeds: [one, other].map(between_seeds),
+                    ..found
+                });
             }
         }
         Err("they have no point in common".to_owned())
@@ -109,9 +115,24 @@ impl Agreement {
             pairs: pairs.len(),
             equal: pairs.iter().filter(|(a, b)| a.code == b.code).count(),
             alone: [one.len() - pairs.len(), other.len() - pairs.len()],
+            between_seeds: [None; 2],
             measures: measures.filter_map(difference).collect(),
         }
     }
+}
+
+/// The chance that two seeds of a point have one label: over all pairs of seeds of all points.
+fn between_seeds(table: &LabelTable) -> Option<f64> {
+    let (mut pairs, mut equal) = (0_usize, 0_usize);
+    for point in table.points() {
+        for (place, row) in point.rows.iter().enumerate() {
+            let label = |row: &usize| table.rows[*row].verdict.label;
+            let later = &point.rows[place + 1..];
+            pairs += later.len();
+            equal += later.iter().filter(|it| label(it) == label(row)).count();
+        }
+    }
+    (pairs > 0).then(|| equal as f64 / pairs as f64)
 }
 
 fn key(values: &[f64]) -> PairKey {
@@ -206,6 +227,9 @@ mod tests {
         assert_eq!((agreement.pairs, agreement.equal), (1, 1));
         let rotation = agreement.measures.iter().find(|it| it.name == "rotation");
         assert!((rotation.unwrap().difference.value - 0.2).abs() < 1e-12);
+        assert_eq!(agreement.between_seeds, [Some(1.0), None]);
+        let three = [(1.0, 1, "settled", 0.1), (1.0, 2, "settled", 0.3), (1.0, 3, "pinned", 0.3)];
+        assert_eq!(between_seeds(&table(&three)), Some(1.0 / 3.0));
         let nowhere = table(&[(9.0, 1, "settled", 0.4)]);
         assert!(Agreement::of(&one, &nowhere).is_err());
     }

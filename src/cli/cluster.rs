@@ -95,8 +95,29 @@ impl Handed {
     }
 }
 
-/// What the jobs at these places take on one core of this machine.
-pub(super) fn forecast(next: &NextJobs, places: &[usize]) -> Result<Forecast, Failure> {
+/// What the jobs at these places take on one core of this machine. No program is started to find
+/// out: the runs of the folder tell.
+pub(super) fn forecast(
+    next: &NextJobs,
+    places: &[usize],
+    folder: &Folder,
+) -> Result<Forecast, Failure> {
+    if places.iter().any(|&it| next.jobs[it].scene().is_external()) {
+        let mean = programs::seconds_of_runs(folder, &next.jobs, 1)?.ok_or_else(|| {
+            Failure::refused(
+                "how long a run of its program takes is not known until one is done: make one \
+                 first, such as `phase sweep FILE --job \"$(phase jobs FILE | head -1)\"`",
+            )
+        })?;
+        return Ok(Forecast {
+            tried: 0,
+            work: places.len() as u64,
+            rate: 1.0 / mean.max(1e-3),
+            seconds: mean * places.len() as f64,
+            memory: 0.0,
+            disk: 0.0,
+        });
+    }
     let jobs: Vec<Job> = places.iter().map(|&it| next.jobs[it].clone()).collect();
     cost::forecast(&jobs, 1, TRIAL).map_err(Failure::failed)
 }

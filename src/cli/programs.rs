@@ -4,7 +4,7 @@ use super::console::Console;
 use super::exit::Failure;
 use phase::external::find_version;
 use phase::scene::{ExternalProgram, Scene};
-use phase::sweep::{Folder, Sweep};
+use phase::sweep::{Folder, Job, Plan, Sweep};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::env;
@@ -50,12 +50,25 @@ impl AllowProgram {
         self.prepare_scenes(&mut [scene], file, console)
     }
 
+    /// Asks whether a sweep may start its programs, of which it then has some.
+    pub(super) fn ask(&self, sweep: &mut Sweep, file: &Path) -> Result<bool, Failure> {
+        self.ask_for(&scenes_of(sweep), file)
+    }
+
     fn prepare_scenes(
         &self,
         scenes: &mut [&mut Scene],
         file: &Path,
         console: &Console,
     ) -> Result<bool, Failure> {
+        if !self.ask_for(scenes, file)? {
+            return Ok(false);
+        }
+        find_versions(scenes, console)?;
+        Ok(true)
+    }
+
+    fn ask_for(&self, scenes: &[&mut Scene], file: &Path) -> Result<bool, Failure> {
         let programs = || scenes.iter().filter_map(|scene| scene.program.as_ref());
         let mut names: Vec<String> = programs()
             .flat_map(ExternalProgram::programs)
@@ -69,24 +82,41 @@ impl AllowProgram {
         if !self.allow_program && !is_listed(file)? {
             return Err(refuse(&names.join(", "), file));
         }
-        let mut known: BTreeMap<Vec<String>, String> = BTreeMap::new();
-        for program in scenes.iter_mut().filter_map(|it| it.program.as_mut()) {
-            if program.version.is_empty() {
-                continue;
-            }
-            let found = match known.get(&program.version) {
-                Some(found) => found.clone(),
-                None => {
-                    let found = find_version(&program.version).map_err(Failure::failed)?;
-                    console.detail(format_args!("{}: {found}", program.version.join(" ")));
-                    known.insert(program.version.clone(), found.clone());
-                    found
-                }
-            };
-            program.found_version = Some(found);
-        }
         Ok(true)
     }
+}
+
+/// Asks the programs for their versions, each command once.
+fn find_versions(scenes: &mut [&mut Scene], console: &Console) -> Result<(), Failure> {
+    let mut known: BTreeMap<Vec<String>, String> = BTreeMap::new();
+    for program in scenes.iter_mut().filter_map(|it| it.program.as_mut()) {
+        if program.version.is_empty() {
+            continue;
+        }
+        let found = match known.get(&program.version) {
+            Some(found) => found.clone(),
+            None => {
+                let found = find_version(&program.version).map_err(Failure::failed)?;
+                console.detail(format_args!("{}: {found}", program.version.join(" ")));
+                known.insert(program.version.clone(), found.clone());
+                found
+            }
+        };
+        program.found_version = Some(found);
+    }
+    Ok(())
+}
+
+/// How long a run took on average (s), of those of these jobs that a results folder holds.
+pub(super) fn seconds_of_runs(
+    folder: &Folder,
+    jobs: &[Job],
+    workers: usize,
+) -> Result<Option<f64>, Failure> {
+    let plan = Plan::new(folder, jobs.to_vec(), workers)?;
+    let times = plan.done().map(|(_, done)| done.cpu_seconds);
+    let (runs, seconds) = times.fold((0, 0.0), |(runs, sum), it| (runs + 1, sum + it));
+    Ok((runs > 0).then(|| seconds / f64::from(runs)))
 }
 
 /// Gives the programs of a sweep the versions that a results folder keeps of them, if it does.

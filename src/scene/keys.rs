@@ -99,6 +99,9 @@ impl Scene {
         let mut keys = Vec::new();
         collect(&SCENE.kind, None, Some(&self.tree()), "", &mut keys);
         keys.retain(|key| key.path != "seed" && !is_without_effect(&key.path));
+        if self.is_external() {
+            keys.retain(|key| key.path.starts_with(PARAMETERS));
+        }
         if self.time.safety_factor.is_none() {
             keys.retain(|key| key.path != SAFETY_FACTOR_KEY);
         }
@@ -151,6 +154,7 @@ impl Scene {
         let table = key.split('.').next().unwrap_or(key);
         if let ValueKind::Table(scene) = &SCENE.kind
             && table != key
+            && !self.is_external()
             && scene.keys.iter().any(|known| known.name == table)
             && self.for_keys(&[]).tree().get(table).is_none()
         {

@@ -47,6 +47,9 @@ pub(crate) struct Arguments {
     /// A table to write (CSV).
     #[arg(short, long, value_name = "CSV")]
     out: Option<PathBuf>,
+    /// Draw the phase diagrams of two results folders beside each other, as NAME.svg and NAME.png.
+    #[arg(long, value_name = "NAME")]
+    figure: Option<PathBuf>,
 }
 
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
@@ -63,6 +66,11 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
             .at(file));
         }
         return sweeps::main(arguments, console);
+    }
+    if arguments.figure.is_some() {
+        return Err(Failure::refused(
+            "--figure draws the phase diagrams of results folders; `phase plot` draws records",
+        ));
     }
     let inputs = inputs::read(&arguments.paths, arguments.measured.scene.as_deref())?;
     let units = inputs::units(&inputs)?;

@@ -39,7 +39,8 @@ pub(crate) struct Arguments {
 
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
     let workers = arguments.workers.count();
-    let next = Handed::load(&arguments.file, arguments.out.as_ref(), workers)?.next;
+    let handed = Handed::load(&arguments.file, arguments.out.as_ref(), workers)?;
+    let next = handed.next;
     let places = match arguments.missing {
         true => next.missing.clone(),
         false => (0..next.jobs.len()).collect(),
@@ -47,7 +48,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     let shards = match arguments.chunk {
         None => next.shards(&places, 0.0, Duration::ZERO),
         Some(_) if places.is_empty() => Vec::new(),
-        Some(time) => next.shards(&places, cluster::forecast(&next, &places)?.rate, time),
+        Some(time) => next.shards(&places, cluster::forecast(&next, &places, &handed.folder)?.rate, time),
     };
     let lines: Vec<String> = shards.iter().map(Shard::to_string).collect();
     for line in &lines {

@@ -7,6 +7,7 @@ mod slurm;
 use crate::cli::cluster::{self, Handed};
 use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
+use crate::cli::programs::AllowProgram;
 use crate::cli::{format, values};
 use phase::store;
 use phase::sweep::{Folder, NextJobs, Shard, Sweep};
@@ -47,6 +48,8 @@ pub(crate) struct Arguments {
     /// Number of tasks of the whole sweep [default: as many as their time asks for].
     #[arg(long, value_name = "N", value_parser = values::at_least_one)]
     tasks: Option<usize>,
+    #[command(flatten)]
+    program: AllowProgram,
     /// Write the script or job file, and submit nothing.
     #[arg(long)]
     dry_run: bool,
@@ -81,6 +84,8 @@ struct Handover<'a> {
     /// The command that runs the file.
     command: &'static str,
     file: String,
+    /// The option that lets it start programs, if it does.
+    leave: &'static str,
     out: String,
     place: PathBuf,
     here: String,
@@ -97,7 +102,8 @@ struct Submission {
 }
 
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
-    let handed = Handed::load(&arguments.file, arguments.out.as_ref(), arguments.jobs)?;
+    let mut handed = Handed::load(&arguments.file, arguments.out.as_ref(), arguments.jobs)?;
+    let starts_programs = arguments.program.ask(&mut handed.sweep, &arguments.file)?;
     let (folder, command) = (handed.folder.clone(), handed.command);
     if handed.next.missing.is_empty() {
         console.result(format_args!(
@@ -108,7 +114,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         return Ok(Exit::Done);
     }
     folder.create()?;
-    let order = Handover::new(arguments, handed)?;
+    let order = Handover::new(arguments, handed, starts_programs)?;
     fs::create_dir_all(&order.place).map_err(|it| cannot_write(&order.place, &it))?;
     let submission = match arguments.to {
         BatchSystem::Slurm => slurm::write(&order)?,
@@ -190,14 +196,18 @@ fn submit(commands: &[Vec<String>], console: &Console) -> Result<Vec<String>, Fa
 }
 
 impl<'a> Handover<'a> {
-    fn new(arguments: &'a Arguments, handed: Handed) -> Result<Self, Failure> {
+    fn new(
+        arguments: &'a Arguments,
+        handed: Handed,
+        starts_programs: bool,
+    ) -> Result<Self, Failure> {
         let Handed {
             next,
             sweep,
             folder,
             command,
         } = handed;
-        let forecast = cluster::forecast(&next, &next.missing)?;
+        let forecast = cluster::forecast(&next, &next.missing, &folder)?;
         let work = |places: &mut dyn Iterator<Item = usize>| -> u64 {
             places.map(|place| next.jobs[place].work()).sum()
         };
@@ -216,6 +226,10 @@ impl<'a> Handover<'a> {
             program: word(program.as_os_str())?,
             command,
             file: word(absolute(&arguments.file)?.as_os_str())?,
+            leave: match starts_programs {
+                true => " --allow-program",
+                false => "",
+            },
             out: word(root.as_os_str())?,
             here: word(here.as_os_str())?,
             place: root.join("cluster"),
@@ -229,8 +243,8 @@ impl<'a> Handover<'a> {
     /// The command of a shell that runs the file, with so many cores.
     fn run(&self) -> String {
         format!(
-            "{} {} {} --out {} --jobs {}",
-            self.program, self.command, self.file, self.out, self.arguments.jobs
+            "{} {} {} --out {} --jobs {}{}",
+            self.program, self.command, self.file, self.out, self.arguments.jobs, self.leave
         )
     }
 
@@ -276,6 +290,7 @@ impl<'a> Handover<'a> {
             file,
             out,
             here,
+            leave,
             ..
         } = self;
         let run = self.run();
@@ -303,7 +318,7 @@ impl<'a> Handover<'a> {
                  exit 1\n\
              fi\n\
              exec {program} submit {file} --out {out} --to {system} --time {time}s --jobs {jobs}\
-             {tasks}{more}\n"
+             {leave}{tasks}{more}\n"
         );
         Ok([self.write("todo", &lines)?, self.write("next.sh", &text)?])
     }

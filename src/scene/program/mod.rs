@@ -175,6 +175,9 @@ pub(super) mod absent {
     /// Far beyond all times of runs and all densities.
     const NONE: f64 = 1e15;
 
+    /// The highest place (m).
+    const NOWHERE: f64 = 1e9;
+
     pub(in crate::scene) fn spheres() -> Spheres {
         Spheres {
             count: 1,
@@ -189,11 +192,16 @@ pub(super) mod absent {
     }
 
     pub(in crate::scene) fn start() -> Start {
-        Start::list(Vec::new())
+        Start::Random {
+            z_min: NOWHERE,
+            z_max: NOWHERE,
+            speed: 0.0,
+            spin: 0.0,
+        }
     }
 
     pub(in crate::scene) fn is_start(start: &Start) -> bool {
-        matches!(start, Start::List { spheres } if spheres.is_empty())
+        *start == self::start()
     }
 
     pub(in crate::scene) fn time() -> Time {

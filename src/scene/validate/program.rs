@@ -52,7 +52,8 @@ impl Scene {
                 problems.push(Problem::new(path, message).help(help).at_key());
             } else if value.is_object() || value.is_array() {
                 let message = format!("`{path}` must be a number, a text, true or false");
-                problems.push(Problem::new(path, message));
+                let help = "give a program long lists in a file of `program.files`";
+                problems.push(Problem::new(path, message).help(help));
             }
         }
     }
@@ -83,7 +84,8 @@ impl Scene {
         let words = program.version.iter().enumerate();
         for (word, text) in words.filter(|(_, text)| Marks::of(text).any(|it| it.is_mark())) {
             let message = format!("`{text}` holds a mark, but all runs have one version");
-            problems.push(Problem::new(format!("program.version[{word}]"), message));
+            let problem = Problem::new(format!("program.version[{word}]"), message);
+            problems.push(problem.help("leave the mark out"));
         }
     }
 
@@ -262,7 +264,8 @@ fn check_columns<'a>(
             && !header.iter().any(|it| it == wanted)
         {
             let message = format!("`header` names no column `{wanted}`");
-            problems.push(Problem::new(format!("{path}.{key}"), message));
+            let problem = Problem::new(format!("{path}.{key}"), message);
+            problems.push(problem.help("give the name as `header` has it"));
         }
     }
     if let Some(lacking) = table.columns.iter().find(|column| {
@@ -270,7 +273,8 @@ fn check_columns<'a>(
         !header.is_empty() && !header.iter().any(|it| it == column.source())
     }) {
         let message = format!("`header` names no column `{}`", lacking.source());
-        problems.push(Problem::new(format!("{path}.header"), message));
+        let problem = Problem::new(format!("{path}.header"), message);
+        problems.push(problem.help("name all columns of the file, in order"));
     }
 }
 

@@ -72,8 +72,7 @@ impl<'a> Reader<'a> {
         let mut scene = Scene::from_json(self.text("scene")?)
             .map_err(|error| self.damaged(format!("its scene: {error}")))?;
         // A long list stands in datasets instead of the text.
-        let is_empty = matches!(&scene.start, Start::List { spheres } if spheres.is_empty());
-        if is_empty && !scene.is_external() {
+        if matches!(&scene.start, Start::List { spheres } if spheres.is_empty()) {
             scene.start = self.start(scene.spheres.count)?;
         }
         Ok(scene)

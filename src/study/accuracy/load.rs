@@ -179,8 +179,7 @@ fn check_kind(file: &AccuracyFile, base: &Base, problems: &mut Vec<Problem>) {
             let help = "add [seeds] with `count = 10`, or `times` for a motion that is not chaotic";
             problems.push(Problem::new("seeds", message).help(help));
         }
-        let scene = &base.sweep.scene;
-        if matches!(scene.start, Start::List { .. }) && !scene.is_external() {
+        if matches!(base.sweep.scene.start, Start::List { .. }) {
             let message = "every sphere of the scene has its place, so that seeds change nothing \
                            and tell no noise";
             let help = "give the scene a random start, or compare its motion at `times`";

@@ -79,15 +79,14 @@ pub(super) fn forecast(
 ) -> Result<(), Failure> {
     let folder = Folder::new(folders::default_folder(file));
     programs::take_versions(sweep, &folder);
-    let plan = Plan::new(&folder, sweep.jobs()?, workers)?;
-    let times: Vec<f64> = plan.done().map(|(_, done)| done.cpu_seconds).collect();
-    let left = plan.pending().count();
-    if times.is_empty() {
+    let jobs = sweep.jobs()?;
+    let Some(mean) = programs::seconds_of_runs(&folder, &jobs, workers)? else {
         let text = "unknown until a run is done: the program is not started here";
         console.result(line("forecast", text));
         return Ok(());
-    }
-    let mean = times.iter().sum::<f64>() / times.len() as f64;
+    };
+    let plan = Plan::new(&folder, jobs, workers)?;
+    let left = plan.pending().count();
     let seconds = mean * left as f64 / workers.min(left.max(1)) as f64;
     console.result(line(
         "forecast",
@@ -96,7 +95,7 @@ pub(super) fn forecast(
             format::duration(seconds),
             format::count(left, "job"),
             format::count(workers, "worker"),
-            format::count(times.len(), "run"),
+            format::count(plan.done().count(), "run"),
             folder.root().display()
         ),
     ));

@@ -4,11 +4,13 @@ use super::{Answer, Arguments, Entry, table};
 use crate::cli::columns::{in_columns, written};
 use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
-use crate::cli::labels;
-use phase::classify::{Agreement, MeasureDifference};
+use crate::cli::{figures, folders, labels};
+use phase::classify::{Agreement, LabelRow, LabelTable, MeasureDifference};
 use phase::compare::ComparisonRow;
+use phase::grid::{Axis, VARIANT, Variant};
 use phase::statistics::Estimate;
 use phase::sweep::Folder;
+use std::path::{Path, PathBuf};
 
 pub(super) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
     let [one, other] = &arguments.paths[..] else {
@@ -23,8 +25,9 @@ pub(super) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
             "{option} is for records; folders are compared by their labels"
         )));
     }
-    let read = |path: &std::path::PathBuf| labels::read(&Folder::new(path));
-    let agreement = Agreement::of(&read(one)?, &read(other)?).map_err(|differ| {
+    let read = |path: &PathBuf| labels::read(&Folder::new(path));
+    let tables = [read(one)?, read(other)?];
+    let agreement = Agreement::of(&tables[0], &tables[1]).map_err(|differ| {
         Failure::refused(format_args!(
             "{} and {} cannot be compared: {differ}",
             one.display(),
@@ -45,6 +48,12 @@ pub(super) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         console.note("the rules of their labels and measures differ");
     }
     console.result(sentence(&agreement));
+    for (letter, share) in ["A", "B"].iter().zip(agreement.between_seeds) {
+        if let Some(share) = share {
+            let share = 100.0 * share;
+            console.result(format_args!("two seeds of {letter} agree at {share:.1} %"));
+        }
+    }
     let head = ["", "A", "B", "B - A"].map(str::to_owned);
     let lines = agreement.measures.iter().map(line);
     let lines: Vec<[String; 4]> = std::iter::once(head).chain(lines).collect();
@@ -56,6 +65,9 @@ pub(super) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         table::write(path, &rows, &names)?;
         console.file(path);
     }
+    if let Some(figure) = &arguments.figure {
+        draw_both(&tables, [one, other], figure, console)?;
+    }
     console.answer_with_files(&Answer {
         records: names.to_vec(),
         rows: rows
@@ -64,6 +76,40 @@ pub(super) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
             .collect(),
     });
     Ok(Exit::Done)
+}
+
+/// Draws both phase diagrams in one figure, as if the folders were variants of one sweep.
+fn draw_both(
+    tables: &[LabelTable; 2],
+    folders: [&PathBuf; 2],
+    figure: &Path,
+    console: &Console,
+) -> Result<(), Failure> {
+    let [first, second] = folders.map(|path| Folder::new(path).read_sweep());
+    let (mut sweep, second) = (first?, second?);
+    let scenes = [sweep.scene.clone(), second.scene];
+    let variants = folders.into_iter().zip(scenes).map(|(path, scene)| Variant {
+        name: path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned(),
+        scale: Vec::new(),
+        scene,
+    });
+    let variants: Vec<Variant> = variants.collect();
+    let mut both = tables[0].clone();
+    both.axes.push(VARIANT.to_owned());
+    both.variants = variants.iter().map(|it| it.name.clone()).collect();
+    let rows = tables.iter().enumerate().flat_map(|(place, table)| {
+        let with_place = move |row: &LabelRow| LabelRow {
+            values: [row.values.as_slice(), &[place as f64]].concat(),
+            ..row.clone()
+        };
+        table.rows.iter().map(with_place)
+    });
+    both.rows = rows.collect();
+    sweep.axes.push(Axis::of_variants(variants));
+    sweep.plot.panels = None;
+    let drawn = figures::drawn("phase", (&Folder::new(folders[0]), &sweep, &both), (&[], None))?;
+    folders::make_for(figure)?;
+    figures::write(&drawn, |end| figure.with_added_extension(end), console)
 }
 
 fn sentence(agreement: &Agreement) -> String {

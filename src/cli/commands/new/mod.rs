@@ -6,7 +6,7 @@ use crate::cli::folders;
 use phase::store;
 use std::path::{Path, PathBuf};
 
-/// Write a scene, sweep, silo or spot file to start from, with a comment on every key.
+/// Write a scene, sweep, silo, spot or program file to start from, with a comment on every key.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Example: a tank, and a sweep over it
@@ -15,7 +15,9 @@ Example: a tank, and a sweep over it
 Example: a grain silo
   phase new silo my-silo
 Example: a silo drained by the spot model
-  phase new spot my-drainage")]
+  phase new spot my-drainage
+Example: a sweep of a program of your own, with its script
+  phase new program epidemic")]
 pub(crate) struct Arguments {
     /// The kind of file.
     kind: Kind,
@@ -39,11 +41,15 @@ enum Kind {
     Silo,
     /// One simulation of a silo by the spot model.
     Spot,
+    /// A sweep of a program of your own, and a script that it runs.
+    Program,
 }
 
 const SCENE: &str = include_str!("scene.toml");
 const SILO: &str = include_str!("silo.toml");
 const SPOT: &str = include_str!("spot.toml");
+const PROGRAM: &str = include_str!("program.toml");
+const MODEL: &str = include_str!("model.py");
 const SWEEP: &str = include_str!("sweep.toml");
 
 /// The line of the starter sweep that names its scene.
@@ -57,22 +63,30 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     if arguments.kind != Kind::Sweep && arguments.scene.is_some() {
         return Err(Failure::refused("--scene is for `phase new sweep` only"));
     }
-    if path.exists() && !arguments.force {
-        return Err(Failure::refused(
-            "the file exists already; choose another name, or replace it with --force",
-        )
-        .at(path));
+    let script = (arguments.kind == Kind::Program).then(|| path.with_extension("py"));
+    for file in [&path].into_iter().chain(&script) {
+        if file.exists() && !arguments.force {
+            return Err(Failure::refused(
+                "the file exists already; choose another name, or replace it with --force",
+            )
+            .at(file));
+        }
     }
     folders::make_for(&path)?;
     let text = match (arguments.kind, &arguments.scene) {
         (Kind::Scene, _) => SCENE.to_owned(),
         (Kind::Silo, _) => SILO.to_owned(),
         (Kind::Spot, _) => SPOT.to_owned(),
+        (Kind::Program, _) => program_of(&path),
         (Kind::Sweep, Some(scene)) => sweep_of_file(&from_folder_of(&path, scene))?,
         (Kind::Sweep, None) => sweep_of_table(),
     };
     store::write_atomic(&path, text.as_bytes())?;
     console.file(&path);
+    if let Some(script) = script {
+        store::write_atomic(&script, MODEL.as_bytes())?;
+        console.file(&script);
+    }
     if arguments.scene.is_some()
         && let Err(error) = phase::sweep::load(&path)
     {
@@ -82,7 +96,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     }
     let kind = match arguments.kind {
         Kind::Scene | Kind::Silo | Kind::Spot => "scene",
-        Kind::Sweep => "sweep",
+        Kind::Sweep | Kind::Program => "sweep",
     };
     console.note(format_args!(
         "for help from an editor: `phase generate schema {kind} > {kind}.json`, and `#:schema \
@@ -134,6 +148,13 @@ fn not_text(scene: &Path) -> Failure {
          folders",
         scene.display()
     ))
+}
+
+/// The starter sweep of a program, in a file of that name with its script beside it.
+fn program_of(path: &Path) -> String {
+    let name = path.file_stem().unwrap_or_default().to_string_lossy();
+    let text = PROGRAM.replace("program.toml", &format!("{name}.toml"));
+    text.replace("model.py", &format!("{name}.py"))
 }
 
 /// The starter sweep with the starter scene in it.
