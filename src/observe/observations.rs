@@ -151,4 +151,15 @@ impl Observations {
     pub fn frames(&self) -> usize {
         self.time.len()
     }
+
+    /// Moves series of the model that are observables of spheres, in scenes which usually lack
+    /// them, to their places.
+    pub(super) fn place_own(&mut self) {
+        for series in std::mem::take(&mut self.own) {
+            match self.scalar_mut(&series.name) {
+                Some(values) => *values = series.values,
+                None => self.own.push(series),
+            }
+        }
+    }
 }

@@ -7,6 +7,7 @@
 
 mod accuracy;
 mod change;
+mod columns;
 mod dem;
 mod file_kind;
 mod files;
@@ -32,6 +33,7 @@ pub use accuracy::Accuracy;
 pub use change::Change;
 pub(crate) use change::is_within;
 pub(crate) use dem::MOST_HOPPER_SPHERES;
+pub use columns::FurtherColumn;
 pub use dem::{
     Contact, ContactDrag, Coulomb, CundallStrack, DemScene, Door, Driven, FixedSphere,
     FixedSpheres, Friction, Geometry, Guards, Hertz, Hopper, LengthUnit, Linear, Mindlin,
@@ -41,7 +43,7 @@ pub use file_kind::FileKind;
 pub(crate) use files::in_start_file;
 pub use keys::Notation;
 pub(crate) use keys::{leaf, may_hold};
-pub use output::Output;
+pub use output::{Layer, Output};
 pub use radius::{Radii, RadiusShare};
 pub use spheres::{Shape, Spheres};
 pub(crate) use spot::STICKING_OUT;
