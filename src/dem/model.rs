@@ -8,8 +8,8 @@ use super::work::sphere_steps;
 use crate::forces::simplification::Simplification;
 use crate::scene::Scene;
 use crate::simulation::{
-    BuildError, Column, Counts, Frame, Instability, Milestone, Model, PartOfStep, Profile, Simulation,
-    StateError,
+    BuildError, Column, Counts, Frame, Instability, Milestone, Model, PartOfStep, Profile,
+    Simulation, StateError,
 };
 use rayon::ThreadPoolBuildError;
 use std::io;

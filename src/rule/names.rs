@@ -13,6 +13,11 @@ pub trait Names {
     /// A column hides the key of the same name.
     fn key(&self, path: &str) -> Option<Unit>;
 
+    /// Why the run has no column `name` that other runs have; none if no run has it.
+    fn absent(&self, _name: &str) -> Option<String> {
+        None
+    }
+
     /// All names, for the help of an error.
     fn suggestions(&self) -> Vec<String>;
 }

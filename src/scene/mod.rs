@@ -32,8 +32,8 @@ mod vary;
 pub use accuracy::Accuracy;
 pub use change::Change;
 pub(crate) use change::is_within;
-pub(crate) use dem::MOST_HOPPER_SPHERES;
 pub use columns::FurtherColumn;
+pub(crate) use dem::MOST_HOPPER_SPHERES;
 pub use dem::{
     Contact, ContactDrag, Coulomb, CundallStrack, DemScene, Door, Driven, FixedSphere,
     FixedSpheres, Friction, Geometry, Guards, Hertz, Hopper, LengthUnit, Linear, Mindlin,

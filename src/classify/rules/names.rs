@@ -3,12 +3,14 @@
 use crate::observe::Observations;
 use crate::record::RunRecord;
 use crate::rule::{Names, Unit, Values};
-use crate::scene::{Notation, Scene};
+use crate::scene::{FurtherColumn, Notation, Scene};
 use std::borrow::Cow;
 
 /// The names that the rules for runs of a scene may use.
 pub(super) struct SceneNames<'a> {
     scene: &'a Scene,
+    /// Whether columns that its runs cannot have are no names.
+    strict: bool,
 }
 
 /// Columns that models declare for themselves, with their units.
@@ -16,7 +18,18 @@ const OF_MODELS: [(&str, &str); 1] = [("spots", "1")];
 
 impl<'a> SceneNames<'a> {
     pub(super) fn new(scene: &'a Scene) -> Self {
-        Self { scene }
+        Self {
+            scene,
+            strict: false,
+        }
+    }
+
+    /// The same without the columns that runs of the scene cannot have.
+    pub(super) fn strict(scene: &'a Scene) -> Self {
+        Self {
+            scene,
+            strict: true,
+        }
     }
 }
 
@@ -24,11 +37,16 @@ impl<'a> SceneNames<'a> {
 fn columns() -> impl Iterator<Item = (&'static str, &'static str)> {
     let of_spheres = Observations::COLUMNS.iter();
     let of_spheres = of_spheres.map(|column| (column.name, column.unit));
-    of_spheres.chain(OF_MODELS)
+    let further = FurtherColumn::ALL.iter();
+    let further = further.map(|column| (column.name(), column.unit()));
+    of_spheres.chain(OF_MODELS).chain(further)
 }
 
 impl Names for SceneNames<'_> {
     fn column(&self, name: &str) -> Option<Unit> {
+        if self.strict && self.absent(name).is_some() {
+            return None;
+        }
         let unit = columns().find(|column| column.0 == name)?.1;
         Unit::parse(unit).ok()
     }
@@ -39,8 +57,19 @@ impl Names for SceneNames<'_> {
         Unit::parse(unit).ok()
     }
 
+    fn absent(&self, name: &str) -> Option<String> {
+        let further = FurtherColumn::of_name(name);
+        let why = match further {
+            Some(column) if column.is_usual_in(self.scene) => None,
+            Some(column) => column.absent_in(self.scene),
+            None => Observations::absent_in(self.scene, name),
+        };
+        why.map(str::to_owned)
+    }
+
     fn suggestions(&self) -> Vec<String> {
-        let columns = columns().map(|column| column.0.to_owned());
+        let columns = columns().filter(|column| !self.strict || self.absent(column.0).is_none());
+        let columns = columns.map(|column| column.0.to_owned());
         columns.chain(self.scene.numeric_keys()).collect()
     }
 }

@@ -1,0 +1,120 @@
+//! Further columns of contacts: their ranges and symmetries, and that asking for them changes
+//! nothing else. `verify/columns.toml` has their numbers.
+
+use phase::run;
+use phase::scene::{FurtherColumn, Scene};
+use proptest::prelude::*;
+use std::ops::ControlFlow;
+
+/// Spheres that fall into a tank, with a law of friction.
+fn scene(friction: &str, seed: u64) -> Scene {
+    let text = format!(
+        r#"
+        seed = {seed}
+        spheres = {{ count = 60, radius = [{{ radius = 0.004, share = 1 }}, {{ radius = 0.005, share = 1 }}], density = 1000.0 }}
+        tank = {{ radius = 0.03, floor = 0.0 }}
+        start = {{ kind = "random", z_min = 0.0, z_max = 0.08 }}
+        gravity = {{ acceleration = 9.8 }}
+        contact = {{ law = "hertz", young_modulus = 1e6, poisson_ratio = 0.3, restitution = 0.6 }}
+        {friction}
+        time = {{ dt = 2e-5, duration = 0.2, frame_interval = 2e-3 }}
+        "#
+    );
+    toml::from_str(&text).unwrap()
+}
+
+const MINDLIN: &str = r#"friction = { law = "mindlin", coefficient = 0.4 }"#;
+
+/// The series of all columns that a scene can have.
+fn series(scene: &Scene) -> Vec<(String, Vec<f32>)> {
+    let mut scene = scene.clone();
+    let all = FurtherColumn::ALL.iter().copied();
+    scene.output.columns = all.filter(|it| it.absent_in(&scene).is_none()).collect();
+    let record = run::run(&scene, &mut |_| ControlFlow::Continue(())).unwrap();
+    let scalars = record.observations.scalars().into_iter();
+    scalars
+        .map(|it| (it.name.to_owned(), it.values.to_vec()))
+        .collect()
+}
+
+fn find<'a>(series: &'a [(String, Vec<f32>)], name: &str) -> &'a [f32] {
+    &series.iter().find(|it| it.0 == name).unwrap().1
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(3))]
+    #[test]
+    fn stress_is_symmetric_without_friction_and_shares_are_shares(seed in 1_u64..1000) {
+        let frictionless = series(&scene("", seed));
+        let rough = series(&scene(MINDLIN, seed));
+        let mut asymmetric = 0;
+        for axes in ["xy", "xz", "yz"] {
+            let turned: String = axes.chars().rev().collect();
+            let [name, other] = [axes, &turned].map(|it| format!("stress_{it}"));
+            let both = |all: &[(String, Vec<f32>)]| -> Vec<(f32, f32)> {
+                let pairs = find(all, &name).iter().zip(find(all, &other));
+                pairs.map(|(one, other)| (*one, *other)).collect()
+            };
+            let scale = find(&frictionless, "pressure").iter().copied().fold(0.0, f32::max);
+            for (one, other) in both(&frictionless) {
+                prop_assert!((one - other).abs() <= 1e-5 * scale, "{name}: {one}, {other}");
+            }
+            asymmetric += both(&rough).iter().filter(|(one, other)| one != other).count();
+        }
+        prop_assert!(asymmetric > 100);
+        for all in [&frictionless, &rough] {
+            for name in ["share_without_contact", "share_at_wall"] {
+                let share = find(all, name);
+                prop_assert!(share.iter().all(|it| (0.0..=1.0).contains(it)), "{name}");
+                prop_assert!(share.iter().any(|it| *it != share[0]), "{name}");
+            }
+            let trace = ["stress_xx", "stress_yy", "stress_zz"].map(|it| find(all, it));
+            let pressure = find(all, "pressure");
+            for frame in 0..pressure.len() {
+                let sum: f32 = trace.iter().map(|it| it[frame]).sum();
+                prop_assert!((sum / 3.0 - pressure[frame]).abs() <= 1e-5 * pressure[frame].abs());
+            }
+        }
+    }
+}
+
+#[test]
+fn columns_change_nothing_else() {
+    let scene = scene(MINDLIN, 4);
+    let plain = run::run(&scene, &mut |_| ControlFlow::Continue(())).unwrap();
+    let mut asking = scene.clone();
+    asking.output.columns = FurtherColumn::ALL.to_vec();
+    let asked = run::run(&asking, &mut |_| ControlFlow::Continue(())).unwrap();
+    assert_eq!(scene.identity(), asking.identity());
+    assert_eq!(plain.snapshots, asked.snapshots);
+    for usual in plain.observations.scalars() {
+        let all = asked.observations.scalars();
+        let same = all.iter().find(|it| it.name == usual.name).unwrap();
+        assert_eq!(usual.values, same.values, "{}", usual.name);
+    }
+    let more = asked.observations.scalars().len() - plain.observations.scalars().len();
+    assert_eq!(more, FurtherColumn::ALL.len());
+}
+
+/// At rest the stress carries the weights: its zz times the volume is the sum of m g z.
+#[test]
+fn a_bed_at_rest_carries_its_weight() {
+    let mut scene = scene(MINDLIN, 2);
+    scene.time.duration = 3.0;
+    scene.output.columns = vec![FurtherColumn::StressZz, FurtherColumn::GranularTemperature];
+    scene.output.layer = Some(phase::scene::Layer {
+        z_min: 0.0,
+        z_max: 0.1,
+    });
+    let record = run::run(&scene, &mut |_| ControlFlow::Continue(())).unwrap();
+    let observations = &record.observations;
+    let last = |name: &str| {
+        let all = observations.scalars();
+        let series = all.iter().find(|it| it.name == name).unwrap();
+        f64::from(*series.values.last().unwrap())
+    };
+    assert!(last("granular_temperature") < 1e-10);
+    let stress = last("stress_zz") * std::f64::consts::PI * 0.03 * 0.03 * 0.1;
+    let weights = last("gravitational");
+    assert!((stress / weights - 1.0).abs() < 1e-3, "{stress}, {weights}");
+}
