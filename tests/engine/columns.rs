@@ -96,11 +96,13 @@ fn columns_change_nothing_else() {
     assert_eq!(more, FurtherColumn::ALL.len());
 }
 
-/// At rest the stress carries the weights: its zz times the volume is the sum of m g z.
+/// At rest the stress carries the weights: its zz times the volume is the sum of m g z, if no
+/// friction at the wall carries a part.
 #[test]
 fn a_bed_at_rest_carries_its_weight() {
     let mut scene = scene(MINDLIN, 2);
     scene.time.duration = 3.0;
+    scene.tank.as_mut().unwrap().friction_coefficient = Some(0.0);
     scene.output.columns = vec![FurtherColumn::StressZz, FurtherColumn::GranularTemperature];
     scene.output.layer = Some(phase::scene::Layer {
         z_min: 0.0,

@@ -308,7 +308,9 @@ fn further_columns_are_asked_for_by_rules() {
 
     // One record is made without the column again: only this one is run.
     let records = place.records("results/tiny");
-    place.phase(&["sweep", "tiny.toml", "--out", "plain"]).code(0);
+    place
+        .phase(&["sweep", "tiny.toml", "--out", "plain"])
+        .code(0);
     let one = &records[0];
     std::fs::copy(
         place.path(&format!("plain/records/{one}")),
