@@ -1,6 +1,6 @@
 //! The observables of a run: one value (or one row) per frame.
 
-use crate::scene::Scene;
+use crate::scene::{FurtherColumn, Scene};
 use crate::simulation::Column;
 use ndarray::{Array2, Array3};
 use serde::{Deserialize, Serialize};
@@ -189,6 +189,19 @@ impl Observations {
             _ => return None,
         };
         (!there).then_some(why)
+    }
+
+    /// The same of a run of `scene` without further columns.
+    pub(crate) fn usual_in(&self, scene: &Scene) -> Self {
+        let mut usual = self.clone();
+        let further = FurtherColumn::ALL.iter().copied();
+        for column in further.filter(|it| !it.is_usual_in(scene)) {
+            match usual.scalar_mut(column.name()) {
+                Some(values) => values.clear(),
+                None => usual.own.retain(|series| series.name != column.name()),
+            }
+        }
+        usual
     }
 
     /// Moves series of the model that are observables of spheres, in scenes which usually lack

@@ -3,6 +3,7 @@
 
 use phase::run;
 use phase::scene::{FurtherColumn, Scene};
+use phase::store::{content_digest, motion_digest, read_record, write_record};
 use proptest::prelude::*;
 use std::ops::ControlFlow;
 
@@ -87,6 +88,8 @@ fn columns_change_nothing_else() {
     let asked = run::run(&asking, &mut |_| ControlFlow::Continue(())).unwrap();
     assert_eq!(scene.identity(), asking.identity());
     assert_eq!(plain.snapshots, asked.snapshots);
+    let [one, other] = [&plain, &asked].map(|it| motion_digest(it).unwrap());
+    assert_eq!(one, other);
     for usual in plain.observations.scalars() {
         let all = asked.observations.scalars();
         let same = all.iter().find(|it| it.name == usual.name).unwrap();
@@ -94,6 +97,21 @@ fn columns_change_nothing_else() {
     }
     let more = asked.observations.scalars().len() - plain.observations.scalars().len();
     assert_eq!(more, FurtherColumn::ALL.len());
+}
+
+#[test]
+fn a_record_keeps_its_columns() {
+    let mut scene = scene(MINDLIN, 4);
+    scene.time.duration = 0.02;
+    scene.output.columns = FurtherColumn::ALL.to_vec();
+    let record = run::run(&scene, &mut |_| ControlFlow::Continue(())).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("run.h5");
+    write_record(&record, &path).unwrap();
+    let read = read_record(&path).unwrap();
+    assert_eq!(read.scene, scene);
+    let digests = [&record, &read].map(|it| content_digest(it).unwrap());
+    assert_eq!(digests[0], digests[1]);
 }
 
 /// At rest the stress carries the weights: its zz times the volume is the sum of m g z, if no
