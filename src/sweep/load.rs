@@ -135,7 +135,8 @@ pub(crate) fn of_document(document: &Document) -> Result<Sweep, LoadError> {
     check_axes(&sweep.axes, &mut problems);
     check_sieves(&sweep, document.tree(), &mut problems);
     document.accept(&problems)?;
-    ask_for_columns(&mut sweep);
+    let rules = sweep.sieves.rules.clone();
+    sweep.scenes_mut().for_each(|it| rules.ask_for_columns(it));
     if let Some(refine) = &file.refine {
         refine.refine(&mut sweep, &mut problems);
         document.accept(&problems)?;
@@ -146,27 +147,12 @@ pub(crate) fn of_document(document: &Document) -> Result<Sweep, LoadError> {
     Ok(sweep)
 }
 
-/// Asks for the further columns that rules read, so that these need no other entry.
-fn ask_for_columns(sweep: &mut Sweep) {
-    let rules = &sweep.sieves.rules;
-    let variants = sweep.axes.iter_mut().flat_map(|axis| &mut axis.variants);
-    let of_variants = variants.map(|variant| &mut variant.scene);
-    for scene in of_variants.chain([&mut sweep.scene]) {
-        for column in rules.further_columns(scene) {
-            scene.output.ask_for(column);
-        }
-    }
-}
-
 /// Sieves must be those of the scene's family, and the spout sieve reads counts that the scene must
 /// have asked for.
 fn check_sieves(sweep: &Sweep, tree: &Value, problems: &mut Vec<Problem>) {
     let variants = sweep.axes.iter().flat_map(|axis| &axis.variants);
-    let mut runs: Vec<&Scene> = variants.map(|variant| &variant.scene).collect();
-    if runs.is_empty() {
-        runs.push(&sweep.scene);
-    }
-    problems.extend(sweep.sieves.rules.problems(&sweep.scene, &runs));
+    let variants: Vec<&Scene> = variants.map(|variant| &variant.scene).collect();
+    problems.extend(sweep.sieves.rules.problems(&sweep.scene, &variants));
     let family = Family::of(&sweep.scene);
     let has_labels = !sweep.sieves.rules.labels.is_empty();
     if has_labels && tree.get("sieves").is_some() {

@@ -2,7 +2,7 @@
 //! nothing else. `verify/columns.toml` has their numbers.
 
 use phase::run;
-use phase::scene::{FurtherColumn, Scene};
+use phase::scene::{FurtherColumn, Layer, Scene};
 use phase::store::{content_digest, motion_digest, read_record, write_record};
 use proptest::prelude::*;
 use std::ops::ControlFlow;
@@ -121,20 +121,20 @@ fn a_bed_at_rest_carries_its_weight() {
     let mut scene = scene(MINDLIN, 2);
     scene.time.duration = 3.0;
     scene.tank.as_mut().unwrap().friction_coefficient = Some(0.0);
-    scene.output.columns = vec![FurtherColumn::StressZz, FurtherColumn::GranularTemperature];
-    scene.output.layer = Some(phase::scene::Layer {
+    scene.output.columns = vec![FurtherColumn::StressZz];
+    scene.output.layer = Some(Layer {
         z_min: 0.0,
         z_max: 0.1,
     });
     let record = run::run(&scene, &mut |_| ControlFlow::Continue(())).unwrap();
-    let observations = &record.observations;
-    let last = |name: &str| {
-        let all = observations.scalars();
-        let series = all.iter().find(|it| it.name == name).unwrap();
-        f64::from(*series.values.last().unwrap())
+    let scalars = record.observations.scalars();
+    // The last second: spheres without friction still sway a little.
+    let mean = |name: &str| {
+        let series = scalars.iter().find(|it| it.name == name).unwrap();
+        let last = &series.values[series.values.len() - 500..];
+        last.iter().copied().map(f64::from).sum::<f64>() / 500.0
     };
-    assert!(last("granular_temperature") < 1e-10);
-    let stress = last("stress_zz") * std::f64::consts::PI * 0.03 * 0.03 * 0.1;
-    let weights = last("gravitational");
+    let stress = mean("stress_zz") * std::f64::consts::PI * 0.03 * 0.03 * 0.1;
+    let weights = mean("gravitational");
     assert!((stress / weights - 1.0).abs() < 1e-3, "{stress}, {weights}");
 }

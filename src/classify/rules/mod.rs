@@ -41,9 +41,13 @@ impl Rules {
         self.labels.is_empty() && self.measures.is_empty()
     }
 
-    /// All that is wrong with them for a scene, by the keys of a sweep file. All of `runs`, the
-    /// scenes that are run, must have the columns that they read.
-    pub(crate) fn problems(&self, scene: &Scene, runs: &[&Scene]) -> Vec<Problem> {
+    /// All that is wrong with them for a scene, by the keys of a sweep file. Its variants, if there
+    /// are any, are what is run: they must have the columns that rules read.
+    pub(crate) fn problems(&self, scene: &Scene, variants: &[&Scene]) -> Vec<Problem> {
+        let runs = match variants {
+            [] => &[scene],
+            variants => variants,
+        };
         let mut problems = Vec::new();
         for (key, number) in [
             ("label", self.labels.len()),
@@ -90,9 +94,8 @@ impl Rules {
         problems
     }
 
-    /// The further columns that they read and that runs of a scene have only if they are asked
-    /// for.
-    pub(crate) fn further_columns(&self, scene: &Scene) -> Vec<FurtherColumn> {
+    /// Asks for the further columns that they read, so that these need no other entry.
+    pub(crate) fn ask_for_columns(&self, scene: &mut Scene) {
         let names = SceneNames::new(scene);
         let conditions = self.labels.iter().map(|rule| &rule.when);
         let conditions = conditions.filter_map(|it| condition(it, &names).ok());
@@ -101,7 +104,8 @@ impl Rules {
         let read = conditions.flat_map(|it| it.columns().to_vec());
         let read = read.chain(numbers.flat_map(|it| it.columns().to_vec()));
         let further = read.filter_map(|name| FurtherColumn::of_name(&name));
-        further.filter(|it| !it.is_usual_in(scene)).collect()
+        let further: Vec<FurtherColumn> = further.filter(|it| !it.is_usual_in(scene)).collect();
+        further.into_iter().for_each(|it| scene.output.ask_for(it));
     }
 
     /// What is wrong with the name of a label.
