@@ -1,8 +1,9 @@
 //! Further columns of contacts: their ranges and symmetries, and that asking for them changes
 //! nothing else. `verify/columns.toml` has their numbers.
 
-use phase::run;
-use phase::scene::{FurtherColumn, Layer, Scene};
+use crate::large::large;
+use phase::run::{self, Run};
+use phase::scene::{Coulomb, Friction, FurtherColumn, Integrator, Layer, Scene};
 use phase::store::{content_digest, motion_digest, read_record, write_record};
 use proptest::prelude::*;
 use std::ops::ControlFlow;
@@ -28,9 +29,7 @@ const MINDLIN: &str = r#"friction = { law = "mindlin", coefficient = 0.4 }"#;
 
 /// The series of all columns that a scene can have.
 fn series(scene: &Scene) -> Vec<(String, Vec<f32>)> {
-    let mut scene = scene.clone();
-    let all = FurtherColumn::ALL.iter().copied();
-    scene.output.columns = all.filter(|it| it.absent_in(&scene).is_none()).collect();
+    let scene = asking(scene.clone());
     let record = run::run(&scene, &mut |_| ControlFlow::Continue(())).unwrap();
     let scalars = record.observations.scalars().into_iter();
     scalars
@@ -97,6 +96,47 @@ fn columns_change_nothing_else() {
     }
     let more = asked.observations.scalars().len() - plain.observations.scalars().len();
     assert_eq!(more, FurtherColumn::ALL.len());
+}
+
+/// The scene with all columns that it can have.
+fn asking(mut scene: Scene) -> Scene {
+    let all = FurtherColumn::ALL.iter().copied();
+    scene.output.columns = all.filter(|it| it.absent_in(&scene).is_none()).collect();
+    scene
+}
+
+/// Neither an interruption nor threads change a bit of them.
+#[test]
+fn columns_do_not_depend_on_interruptions_and_threads() {
+    let small = asking(scene(MINDLIN, 4));
+    let whole = run::run(&small, &mut |_| ControlFlow::Continue(())).unwrap();
+    let mut first = Run::new(&small).unwrap();
+    (0..63).for_each(|_| first.advance_frame());
+    let mut saved = Vec::new();
+    first.save(&mut saved).unwrap();
+    let mut second = Run::new(&small).unwrap();
+    second.restore(&saved).unwrap();
+    while !second.ended() {
+        second.advance_frame();
+    }
+    let [one, other] = [whole, second.finish()].map(|it| content_digest(&it).unwrap());
+    assert_eq!(one, other);
+
+    let friction = Some(Friction::Coulomb(Coulomb {
+        coefficient: 0.3,
+        regularisation: 0.01,
+    }));
+    let mut sorted = asking(large(friction, Integrator::VelocityVerlet));
+    sorted.time.duration = 20.0 * sorted.time.frame_interval;
+    let digests = [1, 3].map(|threads| {
+        let mut run = Run::new(&sorted).unwrap();
+        run.use_threads(threads).unwrap();
+        while !run.ended() {
+            run.advance_frame();
+        }
+        content_digest(&run.finish()).unwrap()
+    });
+    assert_eq!(digests[0], digests[1]);
 }
 
 #[test]

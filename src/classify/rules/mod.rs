@@ -105,7 +105,9 @@ impl Rules {
         let read = read.chain(numbers.flat_map(|it| it.columns().to_vec()));
         let further = read.filter_map(|name| FurtherColumn::of_name(&name));
         let further: Vec<FurtherColumn> = further.filter(|it| !it.is_usual_in(scene)).collect();
-        further.into_iter().for_each(|it| scene.output.ask_for(it));
+        for column in further {
+            scene.output.ask_for(column);
+        }
     }
 
     /// What is wrong with the name of a label.

@@ -49,7 +49,9 @@ impl Spheres {
 
     fn moved(mut self, drift: [f64; 3]) -> Self {
         for (speeds, drift) in self.velocity.iter_mut().zip(drift) {
-            speeds.iter_mut().for_each(|speed| *speed += drift);
+            for speed in speeds {
+                *speed += drift;
+            }
         }
         self
     }
