@@ -10,6 +10,7 @@
 mod barrier;
 mod bodies;
 mod check;
+mod columns;
 mod frame;
 mod guard;
 mod laws;

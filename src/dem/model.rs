@@ -1,14 +1,15 @@
 //! The discrete element method as a model of the program.
 
 use super::DemSimulation;
+use super::columns::ContactColumns;
 use super::profile;
 use super::simplifications::simplifications;
 use super::work::sphere_steps;
 use crate::forces::simplification::Simplification;
 use crate::scene::Scene;
 use crate::simulation::{
-    BuildError, Counts, Frame, Instability, Milestone, Model, PartOfStep, Profile, Simulation,
-    StateError,
+    BuildError, Column, Counts, Frame, Instability, Milestone, Model, PartOfStep, Profile,
+    Simulation, StateError,
 };
 use rayon::ThreadPoolBuildError;
 use std::io;
@@ -67,6 +68,16 @@ impl Simulation for DemSimulation {
 
     fn look(&mut self, look: &mut dyn FnMut(&dyn Frame)) {
         self.with_frame(look);
+    }
+
+    fn columns(&self) -> &[Column] {
+        self.columns.as_ref().map_or(&[], ContactColumns::declared)
+    }
+
+    fn values(&mut self) -> Vec<f64> {
+        let engine = self.engine.as_mut();
+        let columns = self.columns.as_mut();
+        columns.map_or_else(Vec::new, |columns| columns.values(engine))
     }
 
     fn save(&self, to: &mut dyn io::Write) -> io::Result<()> {

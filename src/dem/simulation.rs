@@ -1,5 +1,6 @@
 //! From a scene to a running simulation.
 
+use super::columns::ContactColumns;
 use super::frame::of_moving;
 use super::guard::Limits;
 use super::laws::{DemBuildError, engine};
@@ -38,6 +39,8 @@ pub struct DemSimulation {
     pub(super) steps_per_frame: u64,
     /// Columns of positions, velocities and spins, which a frame borrows.
     pub(super) components: [[Vec<f64>; 3]; 3],
+    /// Absent if the scene asks for no further column of contacts.
+    pub(super) columns: Option<ContactColumns>,
     /// The threads that the engine runs on, if there are several.
     pool: Option<ThreadPool>,
 }
@@ -65,6 +68,7 @@ impl DemSimulation {
     /// As [`new`](Self::new).
     pub fn with_skin(scene: &Scene, skin: f64) -> Result<Self, DemBuildError> {
         let spheres = start::place(scene)?;
+        let mean_radius = spheres.radius.iter().sum::<f64>() / spheres.radius.len() as f64;
         let alike = spheres.radius.windows(2).all(|two| two[0] == two[1]);
         let skin = skin * spheres.largest_radius();
         let mut particles = start::fixed(scene);
@@ -110,6 +114,7 @@ impl DemSimulation {
             dt: scene.time.dt,
             steps_per_frame: scene.time.steps_per_frame(),
             components: Default::default(),
+            columns: ContactColumns::new(scene, mean_radius),
             pool: None,
         })
     }

@@ -1,5 +1,6 @@
 //! Observables of a running simulation, frame by frame.
 
+mod columns;
 mod observations;
 mod observer;
 mod reduce;

@@ -1,5 +1,6 @@
 //! The observables of a run: one value (or one row) per frame.
 
+use crate::scene::{FurtherColumn, Scene};
 use crate::simulation::Column;
 use ndarray::{Array2, Array3};
 use serde::{Deserialize, Serialize};
@@ -150,5 +151,67 @@ impl Observations {
     /// Number of frames.
     pub fn frames(&self) -> usize {
         self.time.len()
+    }
+
+    /// Why runs of a scene have no observable of this name, if it is one that others have.
+    pub fn absent_in(scene: &Scene, name: &str) -> Option<&'static str> {
+        let dem = &scene.dem;
+        let is_round = scene.tank.as_ref().is_some_and(|it| it.radius.is_some());
+        let (has_air, flows) = (dem.effects.swirl.is_some(), scene.has_flow());
+        let (there, why) = match name {
+            "kinetic" | "rotational" | "gravitational" => (
+                scene.spot.is_none(),
+                "in a scene of spots velocities are no more than mean displacements",
+            ),
+            "elastic" => (
+                dem.contact.is_some(),
+                "spheres touch only in a scene with [contact]",
+            ),
+            "hole_radius" | "rotation" | "fluctuation" => (
+                !flows && (is_round || has_air),
+                "only a round tank or one with [swirl] has an axis, if no sphere comes or goes",
+            ),
+            "air_speed_mean" => (has_air, "only a scene with [swirl] has moving air"),
+            "released" | "discharged" | "spilled" | "discharge_rate" | "mass_inside" => (
+                flows,
+                "spheres come and go only through a feed, a door, an outlet or an opening",
+            ),
+            "springs"
+            | "dissipated_by_damping"
+            | "dissipated_by_friction"
+            | "work_of_air"
+            | "energy_brought"
+            | "residual" => (
+                scene.output.ledger,
+                "the energy is balanced only with `output.ledger = true`",
+            ),
+            "spots" => (scene.spot.is_some(), "only a scene with [spot] has spots"),
+            _ => return None,
+        };
+        (!there).then_some(why)
+    }
+
+    /// The same of a run of `scene` without further columns.
+    pub(crate) fn usual_in(&self, scene: &Scene) -> Self {
+        let mut usual = self.clone();
+        let further = FurtherColumn::ALL.iter().copied();
+        for column in further.filter(|it| !it.is_usual_in(scene)) {
+            match usual.scalar_mut(column.name()) {
+                Some(values) => values.clear(),
+                None => usual.own.retain(|series| series.name != column.name()),
+            }
+        }
+        usual
+    }
+
+    /// Moves series of the model that are observables of spheres, in scenes which usually lack
+    /// them, to their places.
+    pub(super) fn place_own(&mut self) {
+        for series in std::mem::take(&mut self.own) {
+            match self.scalar_mut(&series.name) {
+                Some(values) => *values = series.values,
+                None => self.own.push(series),
+            }
+        }
     }
 }

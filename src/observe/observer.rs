@@ -4,6 +4,7 @@ mod rising;
 mod totals;
 
 use super::Observations;
+use super::columns::SphereColumns;
 use super::reduce::Sum;
 use crate::scene::Scene;
 use crate::simulation::{Column, Frame, FrameView, Ledger};
@@ -16,7 +17,7 @@ use totals::Totals;
 ///
 /// Observables that refer to the axis (hole, rotation, fluctuation) are measured in a round tank or
 /// in swirling air; the speed of the air in swirling air; elastic energy with contacts; flow if
-/// spheres come and go; the energy ledger on request. Sums run over the spheres in the order of
+/// spheres come and go; the energy ledger and further columns on request. Sums run over the spheres in the order of
 /// their indices, so equal states give equal bits.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Observer {
@@ -43,6 +44,8 @@ pub struct Observer {
     /// Frames per second, at least one.
     second: usize,
     observations: Observations,
+    /// Further columns, whose series are the first of the observations' own.
+    further: SphereColumns,
     /// Rows of `Observations::profile`, one after the other.
     profile: Vec<f32>,
     /// Entries of `Observations::rising`, one frame after the other.
@@ -75,6 +78,7 @@ impl Observer {
             let within = |share: &f64| share * tank_radius;
             output.rise_radii.iter().map(within).collect()
         });
+        let further = SphereColumns::new(scene, mean_radius);
         let per_frame = |speed: &f64| speed * scene.time.frame_interval;
         Self {
             gravity: scene
@@ -98,7 +102,11 @@ impl Observer {
             rises: output.rise_speeds.iter().map(per_frame).collect(),
             distances,
             second: ((1.0 / scene.time.frame_interval).round() as usize).max(1),
-            observations: Observations::default(),
+            observations: Observations {
+                own: further.declared().map(Into::into).collect(),
+                ..Observations::default()
+            },
+            further,
             profile: Vec::new(),
             rising: Vec::new(),
             distance: Vec::new(),
@@ -110,13 +118,16 @@ impl Observer {
     /// The same with the columns that the model of the scene declares.
     #[must_use]
     pub fn with_own(mut self, columns: &[Column]) -> Self {
-        self.observations.own = columns.iter().map(|&column| column.into()).collect();
+        let own = &mut self.observations.own;
+        own.truncate(self.further.count());
+        own.extend(columns.iter().map(|&column| column.into()));
         self
     }
 
     /// Notes the values of the model's own columns at the frame that is observed next.
     pub fn observe_own(&mut self, values: &[f64]) {
-        for (series, value) in self.observations.own.iter_mut().zip(values) {
+        let own = self.observations.own.iter_mut();
+        for (series, value) in own.skip(self.further.count()).zip(values) {
             series.values.push(*value as f32);
         }
     }
@@ -135,6 +146,10 @@ impl Observer {
         self.note_flow(&totals);
         let means = self.note_velocities(&totals);
         self.second_look(frame, &means);
+        let series = self.observations.own.iter_mut();
+        for (series, value) in series.zip(self.further.values(frame)) {
+            series.values.push(value as f32);
+        }
     }
 
     /// The observables of all frames so far, without `profile` and `rising`.
@@ -143,7 +158,8 @@ impl Observer {
     }
 
     /// The observables of all frames so far.
-    pub fn finish(self) -> Observations {
+    pub fn finish(mut self) -> Observations {
+        self.observations.place_own();
         let frames = self.observations.frames();
         let rising = (frames, self.distances.len(), self.rises.len());
         Observations {

@@ -18,6 +18,11 @@ pub trait Names {
         Unit::SECOND
     }
 
+    /// Why the run has no column `name` that other runs have; none if no run has it.
+    fn absent(&self, _name: &str) -> Option<String> {
+        None
+    }
+
     /// All names, for the help of an error.
     fn suggestions(&self) -> Vec<String>;
 }

@@ -7,6 +7,7 @@
 
 mod accuracy;
 mod change;
+mod columns;
 mod dem;
 mod file_kind;
 mod files;
@@ -32,6 +33,7 @@ mod vary;
 pub use accuracy::Accuracy;
 pub use change::Change;
 pub(crate) use change::is_within;
+pub use columns::FurtherColumn;
 pub(crate) use dem::MOST_HOPPER_SPHERES;
 pub use dem::{
     Contact, ContactDrag, Coulomb, CundallStrack, DemScene, Door, Driven, FixedSphere,
@@ -42,7 +44,7 @@ pub use file_kind::FileKind;
 pub(crate) use files::in_start_file;
 pub use keys::Notation;
 pub(crate) use keys::{leaf, may_hold};
-pub use output::Output;
+pub use output::{Layer, Output};
 use program::absent;
 pub use program::{
     DescribedColumn, ExternalProgram, FilledProgram, Keep, Parameters, ProgramColumn,

@@ -1,6 +1,7 @@
 //! What a run stores.
 
-use super::is_default;
+use super::{FurtherColumn, is_default};
+use crate::document::quantities::place;
 use crate::document::{quantity, unit};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -18,6 +19,14 @@ pub struct Output {
     /// integrator's error.
     #[serde(skip_serializing_if = "is_default")]
     pub ledger: bool,
+    /// Further columns, which cost time only in runs that ask for them. Columns that the labels and
+    /// measures of a sweep file read are asked for by this.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub columns: Vec<FurtherColumn>,
+    /// The layer in which columns such as `pressure` are measured. Absent: from the floor to twice
+    /// the mean height of the centres above it, which is the height of a uniform bed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub layer: Option<Layer>,
     /// Radial bins of the surface profile. Default: round(R / 2r).
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(
@@ -38,9 +47,43 @@ impl Default for Output {
             snapshot_interval: 1.0,
             trajectory: false,
             ledger: false,
+            columns: Vec::new(),
+            layer: None,
             profile_bins: None,
             rise_speeds: vec![5.0, 10.0, 20.0],
             rise_radii: vec![0.5, 0.75, 1.0],
         }
     }
+}
+
+impl Output {
+    /// Adds a further column, if it is not asked for yet.
+    pub(crate) fn ask_for(&mut self, column: FurtherColumn) {
+        if !self.columns.contains(&column) {
+            self.columns.push(column);
+            self.columns.sort_unstable();
+        }
+    }
+
+    /// Whether a record with this output has all that `wanted` asks for: it may have further
+    /// columns that are not asked for any more.
+    pub(crate) fn holds(&self, wanted: &Self) -> bool {
+        let apart = |output: &Self| Self {
+            columns: Vec::new(),
+            ..output.clone()
+        };
+        apart(self) == apart(wanted) && wanted.columns.iter().all(|it| self.columns.contains(it))
+    }
+}
+
+/// A horizontal layer of the tank, over its whole cross-section.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Layer {
+    /// Its lower side (m).
+    #[schemars(transform = place("z_{low}", "lower side of the layer"))]
+    pub z_min: f64,
+    /// Its upper side (m).
+    #[schemars(transform = place("z_{high}", "upper side of the layer"))]
+    pub z_max: f64,
 }

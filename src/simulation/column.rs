@@ -1,5 +1,7 @@
 //! What is observed at every frame, by name.
 
+use crate::scene::FurtherColumn;
+
 /// A scalar that is observed at every frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Column {
@@ -9,4 +11,14 @@ pub struct Column {
     pub unit: &'static str,
     /// What it is, in one line.
     pub description: &'static str,
+}
+
+impl From<FurtherColumn> for Column {
+    fn from(column: FurtherColumn) -> Self {
+        Self {
+            name: column.name(),
+            unit: column.unit(),
+            description: column.description(),
+        }
+    }
 }

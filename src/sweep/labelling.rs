@@ -4,7 +4,6 @@ use super::{Folder, Job, PlotSettings, Sweep, work};
 use crate::classify::{self, ClassifyError, Label, LabelRow, LabelTable, Sieves};
 use crate::document::differing_keys;
 use crate::refusal::Refusal;
-use crate::scene::Scene;
 use crate::store::{self, StoreError};
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::path::PathBuf;
@@ -273,18 +272,19 @@ impl Sweep {
         found
     }
 
-    /// Keys in which the runs of this sweep differ from those of an edited one. Titles, thresholds
-    /// and plot settings may differ.
+    /// Keys in which the runs of this sweep differ from those of an edited one. Titles, thresholds,
+    /// further columns and plot settings may differ.
     pub fn keys_of_other_runs(&self, edited: &Self) -> Vec<String> {
-        let runs = |sweep: &Self| Self {
-            title: None,
-            scene: Scene {
+        let runs = |sweep: &Self| {
+            let mut runs = Self {
                 title: None,
-                ..sweep.scene.clone()
-            },
-            sieves: Sieves::default(),
-            plot: PlotSettings::default(),
-            ..sweep.clone()
+                sieves: Sieves::default(),
+                plot: PlotSettings::default(),
+                ..sweep.clone()
+            };
+            runs.scene.title = None;
+            runs.scenes_mut().for_each(|it| it.output.columns.clear());
+            runs
         };
         differing_keys(&runs(self), &runs(edited))
     }

@@ -135,6 +135,8 @@ pub(crate) fn of_document(document: &Document) -> Result<Sweep, LoadError> {
     check_axes(&sweep.axes, &mut problems);
     check_sieves(&sweep, document.tree(), &mut problems);
     document.accept(&problems)?;
+    let rules = sweep.sieves.rules.clone();
+    sweep.scenes_mut().for_each(|it| rules.ask_for_columns(it));
     if let Some(refine) = &file.refine {
         refine.refine(&mut sweep, &mut problems);
         document.accept(&problems)?;
@@ -148,7 +150,9 @@ pub(crate) fn of_document(document: &Document) -> Result<Sweep, LoadError> {
 /// Sieves must be those of the scene's family, and the spout sieve reads counts that the scene must
 /// have asked for.
 fn check_sieves(sweep: &Sweep, tree: &Value, problems: &mut Vec<Problem>) {
-    problems.extend(sweep.sieves.rules.problems(&sweep.scene));
+    let variants = sweep.axes.iter().flat_map(|axis| &axis.variants);
+    let variants: Vec<&Scene> = variants.map(|variant| &variant.scene).collect();
+    problems.extend(sweep.sieves.rules.problems(&sweep.scene, &variants));
     let family = Family::of(&sweep.scene);
     let has_labels = !sweep.sieves.rules.labels.is_empty();
     if has_labels && tree.get("sieves").is_some() {

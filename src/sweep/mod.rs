@@ -89,6 +89,13 @@ impl Sweep {
         self.sieves.family(&self.scene)
     }
 
+    /// Its scene and those of its variants.
+    fn scenes_mut(&mut self) -> impl Iterator<Item = &mut Scene> {
+        let variants = self.axes.iter_mut().flat_map(|axis| &mut axis.variants);
+        let of_variants = variants.map(|variant| &mut variant.scene);
+        of_variants.chain([&mut self.scene])
+    }
+
     /// The sweep of just one scene.
     pub fn of_scene(scene: Scene) -> Self {
         Self {

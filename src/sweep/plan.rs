@@ -21,11 +21,11 @@ pub struct Plan {
 pub enum Standing {
     /// No record.
     Missing,
-    /// A good record of this very scene.
+    /// A good record of this very scene. It may hold further columns that are not asked for.
     Done(Done),
     /// A label that counts without a record.
     Labelled,
-    /// A good record of the same motion, but other things were stored.
+    /// A good record of the same motion, but something is wanted that it does not hold.
     OtherOutput,
     /// A record that cannot be read; says why.
     Damaged(String),
@@ -280,7 +280,7 @@ pub(super) fn standing(job: &Job, path: &Path) -> Standing {
             path: path.to_owned(),
             keys,
         })
-    } else if record.scene.output != scene.output {
+    } else if !record.scene.output.holds(&scene.output) {
         Standing::OtherOutput
     } else {
         Standing::Done(Done {

@@ -15,6 +15,7 @@
 
 mod air_force;
 mod bench;
+mod columns;
 mod convergence;
 mod cradle;
 mod critical_rotation;
@@ -49,7 +50,7 @@ use std::sync::OnceLock;
 use std::sync::atomic::AtomicBool;
 
 /// The tables of all families.
-const TABLES: [&str; 19] = [
+const TABLES: [&str; 20] = [
     include_str!("impact.toml"),
     include_str!("dashpot.toml"),
     include_str!("silbert.toml"),
@@ -66,6 +67,7 @@ const TABLES: [&str; 19] = [
     include_str!("wall_orbit.toml"),
     include_str!("gas.toml"),
     include_str!("critical_rotation.toml"),
+    include_str!("columns.toml"),
     include_str!("step_limit.toml"),
     include_str!("convergence.toml"),
     include_str!("spot_flow.toml"),
@@ -158,6 +160,8 @@ pub enum CaseSetup {
     Gas(gas::Gas),
     /// The critical rotation, in closed form.
     CriticalRotation(critical_rotation::CriticalRotation),
+    /// Further columns of spheres at given places.
+    Columns(columns::Columns),
     /// Limits of the time step, in closed form.
     StepLimit(step_limit::StepLimit),
     /// A scene with decreasing time steps.
@@ -185,6 +189,7 @@ impl CaseSetup {
             Self::WallOrbit(it) => it,
             Self::Gas(it) => it,
             Self::CriticalRotation(it) => it,
+            Self::Columns(it) => it,
             Self::StepLimit(it) => it,
             Self::Convergence(it) => it,
             Self::SpotFlow(it) => it,

@@ -4,6 +4,7 @@
 
 mod allocations;
 mod collisions;
+mod columns;
 mod determinism;
 mod driven;
 mod fastest;

@@ -1,5 +1,6 @@
 //! The family of scenes that rules make: labels, measures, and the rules as they are evaluated.
 
+use super::names::SceneNames;
 use super::{LabelRule, MeasureRule, RuleWindow, Rules, condition, entry, judge, number};
 use crate::classify::measure::{evidence, measured};
 use crate::classify::{Family, Label, Measure};
@@ -88,13 +89,14 @@ pub(in crate::classify) fn family(
 }
 
 fn make(rules: &Rules, base: &'static Family, scene: &Scene) -> Result<Family, ExpressionError> {
+    let names = SceneNames::new(scene);
     let labels = rules.labels.iter().enumerate();
     let labels: Vec<Prepared<Label, Condition>> = labels
         .map(|(place, rule)| {
             Ok(Prepared {
                 gives: label(place, rule),
                 name: rule.name.clone(),
-                expression: condition(&rule.when, scene)?,
+                expression: condition(&rule.when, &names)?,
                 over: rule.over.clone(),
             })
         })
@@ -106,7 +108,7 @@ fn make(rules: &Rules, base: &'static Family, scene: &Scene) -> Result<Family, E
             Ok(Prepared {
                 gives: (),
                 name: rule.name.clone(),
-                expression: number(&rule.value, scene)?,
+                expression: number(&rule.value, &names)?,
                 over: rule.over.clone(),
             })
         })

@@ -16,7 +16,7 @@ pub use window::RuleWindow;
 use super::{FAMILIES, Family, Label};
 use crate::document::Problem;
 use crate::rule::{Condition, Expression, ExpressionError, Number};
-use crate::scene::Scene;
+use crate::scene::{FurtherColumn, Scene};
 use names::SceneNames;
 use serde::{Deserialize, Serialize};
 
@@ -41,8 +41,13 @@ impl Rules {
         self.labels.is_empty() && self.measures.is_empty()
     }
 
-    /// All that is wrong with them for runs of a scene, by the keys of a sweep file.
-    pub(crate) fn problems(&self, scene: &Scene) -> Vec<Problem> {
+    /// All that is wrong with them for a scene, by the keys of a sweep file. Its variants, if there
+    /// are any, are what is run: they must have the columns that rules read.
+    pub(crate) fn problems(&self, scene: &Scene, variants: &[&Scene]) -> Vec<Problem> {
+        let runs = match variants {
+            [] => &[scene],
+            variants => variants,
+        };
         let mut problems = Vec::new();
         for (key, number) in [
             ("label", self.labels.len()),
@@ -70,7 +75,8 @@ impl Rules {
                 let problem = Problem::new(format!("{path}.color"), "this is no colour");
                 problems.push(problem.help("write it as `\"#b03a2e\"`: red, green and blue"));
             }
-            let checked = condition(&rule.when, scene);
+            let check = |run: &&Scene| condition(&rule.when, &SceneNames::strict(run)).map(drop);
+            let checked = runs.iter().try_for_each(check);
             problems.extend(checked.err().map(|it| pointed(&format!("{path}.when"), it)));
         }
         for (place, rule) in self.measures.iter().enumerate() {
@@ -80,11 +86,28 @@ impl Rules {
                 let path = format!("{path}.over");
                 it.check(&path, scene).err()
             }));
-            let checked = number(&rule.value, scene);
+            let check = |run: &&Scene| number(&rule.value, &SceneNames::strict(run)).map(drop);
+            let checked = runs.iter().try_for_each(check);
             let path = format!("{path}.value");
             problems.extend(checked.err().map(|it| pointed(&path, it)));
         }
         problems
+    }
+
+    /// Asks for the further columns that they read, so that these need no other entry.
+    pub(crate) fn ask_for_columns(&self, scene: &mut Scene) {
+        let names = SceneNames::new(scene);
+        let conditions = self.labels.iter().map(|rule| &rule.when);
+        let conditions = conditions.filter_map(|it| condition(it, &names).ok());
+        let numbers = self.measures.iter().map(|rule| &rule.value);
+        let numbers = numbers.filter_map(|it| number(it, &names).ok());
+        let read = conditions.flat_map(|it| it.columns().to_vec());
+        let read = read.chain(numbers.flat_map(|it| it.columns().to_vec()));
+        let further = read.filter_map(|name| FurtherColumn::of_name(&name));
+        let further: Vec<FurtherColumn> = further.filter(|it| !it.is_usual_in(scene)).collect();
+        for column in further {
+            scene.output.ask_for(column);
+        }
     }
 
     /// What is wrong with the name of a label.
@@ -124,14 +147,14 @@ impl Rules {
     }
 }
 
-/// An expression as a condition on runs of a scene.
-fn condition(text: &str, scene: &Scene) -> Result<Condition, ExpressionError> {
-    Expression::parse(text)?.condition(&SceneNames::new(scene))
+/// An expression as a condition on runs that have these names.
+fn condition(text: &str, names: &SceneNames<'_>) -> Result<Condition, ExpressionError> {
+    Expression::parse(text)?.condition(names)
 }
 
-/// An expression as a number of runs of a scene.
-fn number(text: &str, scene: &Scene) -> Result<Number, ExpressionError> {
-    Expression::parse(text)?.number(&SceneNames::new(scene))
+/// An expression as a number of runs that have these names.
+fn number(text: &str, names: &SceneNames<'_>) -> Result<Number, ExpressionError> {
+    Expression::parse(text)?.number(names)
 }
 
 /// The problem of an expression in a file.

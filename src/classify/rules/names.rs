@@ -3,12 +3,14 @@
 use crate::observe::Observations;
 use crate::record::RunRecord;
 use crate::rule::{Names, Unit, Values};
-use crate::scene::{ExternalProgram, Notation, Scene};
+use crate::scene::{ExternalProgram, FurtherColumn, Notation, Scene};
 use std::borrow::Cow;
 
 /// The names that the rules for runs of a scene may use.
 pub(super) struct SceneNames<'a> {
     scene: &'a Scene,
+    /// Whether columns that its runs cannot have are no names.
+    strict: bool,
 }
 
 /// Columns that models declare for themselves, with their units.
@@ -16,7 +18,18 @@ const OF_MODELS: [(&str, &str); 1] = [("spots", "1")];
 
 impl<'a> SceneNames<'a> {
     pub(super) fn new(scene: &'a Scene) -> Self {
-        Self { scene }
+        Self {
+            scene,
+            strict: false,
+        }
+    }
+
+    /// The same without the columns that runs of the scene cannot have.
+    pub(super) fn strict(scene: &'a Scene) -> Self {
+        Self {
+            scene,
+            strict: true,
+        }
     }
 
     /// Names and units of the columns that its runs may have.
@@ -26,14 +39,19 @@ impl<'a> SceneNames<'a> {
         let of_program = of_program.map(|column| (column.name(), column.unit()));
         let of_spheres = Observations::COLUMNS.iter();
         let of_spheres = of_spheres.map(|column| (column.name, column.unit));
+        let further = FurtherColumn::ALL.iter();
+        let further = further.map(|column| (column.name(), column.unit()));
+        let of_models = of_spheres.chain(OF_MODELS).chain(further);
         let has_spheres = program.is_none();
-        let of_models = of_spheres.chain(OF_MODELS).filter(move |_| has_spheres);
-        of_program.chain(of_models)
+        of_program.chain(of_models.filter(move |_| has_spheres))
     }
 }
 
 impl Names for SceneNames<'_> {
     fn column(&self, name: &str) -> Option<Unit> {
+        if self.strict && self.absent(name).is_some() {
+            return None;
+        }
         let unit = self.columns().find(|column| column.0 == name)?.1;
         Unit::parse(unit).ok()
     }
@@ -50,8 +68,23 @@ impl Names for SceneNames<'_> {
         Unit::parse(unit).unwrap_or(Unit::ONE)
     }
 
+    fn absent(&self, name: &str) -> Option<String> {
+        if self.scene.is_external() {
+            return None;
+        }
+        let further = FurtherColumn::of_name(name);
+        let why = match further {
+            Some(column) if column.is_usual_in(self.scene) => None,
+            Some(column) => column.absent_in(self.scene),
+            None => Observations::absent_in(self.scene, name),
+        };
+        why.map(str::to_owned)
+    }
+
     fn suggestions(&self) -> Vec<String> {
-        let columns = self.columns().map(|column| column.0.to_owned());
+        let columns = self.columns();
+        let columns = columns.filter(|column| !self.strict || self.absent(column.0).is_none());
+        let columns = columns.map(|column| column.0.to_owned());
         columns.chain(self.scene.numeric_keys()).collect()
     }
 }

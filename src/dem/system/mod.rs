@@ -19,6 +19,7 @@ mod moves;
 mod order;
 mod partners;
 mod rolling;
+mod seen;
 mod state;
 mod stream;
 mod sums;
@@ -35,6 +36,7 @@ use self::integrate::MotionBefore;
 use self::ledger::EnergyBooks;
 pub(in crate::dem) use self::ledger::LedgerWork;
 use self::rolling::RollingState;
+pub(in crate::dem) use self::seen::{Partner, SeenContact};
 pub(in crate::dem) use self::state::EngineState;
 use self::wall_contacts::WallContacts;
 use super::guard::Limits;
@@ -62,6 +64,9 @@ pub(in crate::dem) trait Engine: Send {
     fn list(&self) -> Option<&VerletList>;
     /// Energies and number of the contacts at the present positions.
     fn contacts(&mut self) -> Contacts;
+    /// Shows all contacts of spheres that move, in a fixed order, with their forces if `forces`.
+    /// This never changes the motion.
+    fn see_contacts(&mut self, forces: bool, see: &mut dyn FnMut(SeenContact));
     fn use_baseline_instructions(&mut self);
     /// Divides the work of a sorted scene among this number of threads. The engine must then run in
     /// a pool of them. Returns whether the work is divided.
@@ -392,5 +397,9 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
 
     fn contacts(&mut self) -> Contacts {
         self.measure_contacts()
+    }
+
+    fn see_contacts(&mut self, forces: bool, see: &mut dyn FnMut(SeenContact)) {
+        self.see_contacts(forces, see);
     }
 }

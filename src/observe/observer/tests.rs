@@ -346,3 +346,43 @@ proptest! {
         check_by_definition(&scene(), &then, &now);
     }
 }
+
+/// What a scene is said to lack is what its observer leaves empty.
+#[test]
+fn absent_columns_are_those_that_are_not_observed() {
+    let tank = scene();
+    let mut open = scene();
+    open.tank = None;
+    open.dem.effects.swirl = None;
+    let mut apart = scene();
+    apart.dem.contact = None;
+    let mut draining = scene();
+    draining.dem.effects.swirl = None;
+    draining.dem.outlet = Some(crate::scene::Outlet { height: -1.0 });
+    for scene in [tank, open, apart, draining] {
+        let spheres = FrameSpheres::at(&[[0.01, 0.0, 0.0]]);
+        let flow = scene.has_flow().then_some(Flow {
+            spheres: 1,
+            released: 1,
+            discharged: 0,
+            spilled: 0,
+            contacts: 0,
+        });
+        let view = FrameView {
+            flow,
+            ..spheres.view()
+        };
+        let mut observer = Observer::new(&scene, &[0.004]);
+        observer.observe(0.0, &view);
+        let observations = observer.finish();
+        let there: Vec<&str> = observations.scalars().iter().map(|it| it.name).collect();
+        for column in Observations::COLUMNS {
+            // A further column elsewhere.
+            if column.name == "coordination" {
+                continue;
+            }
+            let absent = Observations::absent_in(&scene, column.name).is_some();
+            assert_eq!(absent, !there.contains(&column.name), "{}", column.name);
+        }
+    }
+}

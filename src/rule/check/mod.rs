@@ -120,6 +120,10 @@ fn unknown_name(name: &str, term: &Term, names: &dyn Names) -> ExpressionError {
         let message = format!("`{name}` is a function, whose values stand in parentheses");
         return ExpressionError::new(message, span, function.usage());
     }
+    if let Some(why) = names.absent(name) {
+        let message = format!("runs of this scene have no column `{name}`");
+        return ExpressionError::new(message, span, why);
+    }
     let mut known = names.suggestions();
     known.push(TIME.to_owned());
     known.sort_unstable();

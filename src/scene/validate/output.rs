@@ -17,6 +17,7 @@ const NUMBERS_OF_A_SPHERE: f64 = 9.0;
 impl Scene {
     pub(super) fn check_output(&self, problems: &mut Vec<Problem>) {
         self.check_states(problems);
+        self.check_columns(problems);
         let frames = self.time.duration / self.time.frame_interval;
         if frames > MOST_FRAMES {
             // Refused elsewhere.
@@ -53,6 +54,28 @@ impl Scene {
 }
 
 impl Scene {
+    /// Whether runs can have the further columns that are asked for.
+    fn check_columns(&self, problems: &mut Vec<Problem>) {
+        let columns = &self.output.columns;
+        for (index, column) in columns.iter().enumerate() {
+            let path = format!("output.columns[{index}]");
+            if let Some(why) = column.absent_in(self) {
+                let message = format!("this scene has no column `{}`: {why}", column.name());
+                problems.push(Problem::new(path, message).help("remove it"));
+            } else if columns[..index].contains(column) {
+                let message = format!("`{}` is listed twice", column.name());
+                problems.push(Problem::new(path, message).help("remove it"));
+            }
+        }
+        if let Some(layer) = &self.output.layer
+            && layer.z_max <= layer.z_min
+        {
+            let message = "the upper side of the layer is not above its lower side";
+            let problem = Problem::new("output.layer.z_max", message);
+            problems.push(problem.help("give a larger height"));
+        }
+    }
+
     /// Whether all states that are requested fit into memory.
     fn check_states(&self, problems: &mut Vec<Problem>) {
         let state = NUMBERS_OF_A_SPHERE * self.spheres.count as f64;

@@ -135,7 +135,7 @@ pub fn content_digest(record: &RunRecord) -> Result<String, String> {
 }
 
 /// The same for two runs of which more or less was stored: a hash of the outcome, of what was
-/// observed at every frame, and of all spheres at the end.
+/// observed at every frame besides further columns, and of all spheres at the end.
 ///
 /// # Errors
 /// What does not fit together in the record.
@@ -146,6 +146,8 @@ pub fn motion_digest(record: &RunRecord) -> Result<String, String> {
             output: Output {
                 snapshot_interval: 0.0,
                 trajectory: false,
+                columns: Vec::new(),
+                layer: None,
                 ..record.scene.output.clone()
             },
             ..record.scene.clone()
@@ -155,7 +157,7 @@ pub fn motion_digest(record: &RunRecord) -> Result<String, String> {
         radius: record.radius.clone(),
         mass: record.mass.clone(),
         milestones: record.milestones.clone(),
-        observations: record.observations.clone(),
+        observations: record.observations.usual_in(&record.scene),
         snapshots: record.snapshots.last().cloned().into_iter().collect(),
         trajectory: Vec::new(),
         work: record.work,

@@ -261,14 +261,73 @@ fn bad_rules_are_refused_with_their_place() {
     }
 }
 
-/// A rule over a column that runs of the scene do not have is named when they are labelled.
+/// A column that runs of the scene cannot have is refused before any run.
 #[test]
-fn a_column_that_records_lack_is_named() {
+fn columns_that_the_scene_cannot_have_are_refused() {
     let place = Workplace::new();
-    let label = "[[label]]\nname = \"leaving\"\nwhen = \"last(discharged) > 3\"\n";
-    place.write("tiny.toml", &text(label));
+    for (column, why) in [
+        ("discharged", "spheres come and go only through"),
+        ("residual", "only with `output.ledger = true`"),
+    ] {
+        let when = format!("last({column}) > 3");
+        let label = format!("[[label]]\nname = \"leaving\"\nwhen = \"{when}\"\n");
+        place.write("tiny.toml", &text(&label));
+        place
+            .phase(&["sweep", "tiny.toml"])
+            .code(2)
+            .complains(&format!("runs of this scene have no column `{column}`"))
+            .complains("     ^")
+            .complains(why);
+    }
+}
+
+/// A record without a column that a rule reads is named, and the sweep with this rule makes those
+/// runs again that lack it, but none twice.
+#[test]
+fn further_columns_are_asked_for_by_rules() {
+    let place = Workplace::new();
+    place.write("tiny.toml", &text(""));
+    place.phase(&["sweep", "tiny.toml"]).code(0);
+    let plain = place.digests("results/tiny");
+    let rule = "[[measure]]\nname = \"touching\"\nvalue = \"max(share_at_wall)\"\n";
+    place.write("touching.toml", &text(rule));
     place
-        .phase(&["sweep", "tiny.toml"])
+        .phase(&["classify", "results/tiny", "--sweep", "touching.toml"])
         .code(1)
-        .complains("the rule \"leaving\" reads `discharged`, which this record lacks");
+        .complains("the rule \"touching\" reads `share_at_wall`, which this record lacks");
+    let sweep = ["sweep", "touching.toml", "--out", "results/tiny"];
+    place.phase(&sweep).code(0).says("6 runs labelled");
+    let touching = cells(&place, "results/tiny/labels.csv", &["touching"]);
+    assert!(
+        touching
+            .iter()
+            .all(|row| (0.0..=1.0).contains(&row[0].parse::<f64>().unwrap()))
+    );
+    let made = place.digests("results/tiny");
+    assert_ne!(plain, made);
+
+    // One record is made without the column again: only this one is run.
+    let records = place.records("results/tiny");
+    place
+        .phase(&["sweep", "tiny.toml", "--out", "plain"])
+        .code(0);
+    let one = &records[0];
+    std::fs::copy(
+        place.path(&format!("plain/records/{one}")),
+        place.path(&format!("results/tiny/records/{one}")),
+    )
+    .unwrap();
+    place
+        .phase(&sweep)
+        .code(0)
+        .complains("5 of 6 jobs are done already");
+    assert_eq!(place.digests("results/tiny"), made);
+
+    // A sweep that does not need the column any more takes the records as they are.
+    let sweep = ["sweep", "tiny.toml", "--out", "results/tiny"];
+    place
+        .phase(&sweep)
+        .code(0)
+        .complains("6 of 6 jobs are done already");
+    assert_eq!(place.digests("results/tiny"), made);
 }
