@@ -228,7 +228,11 @@ mod tests {
         let rotation = agreement.measures.iter().find(|it| it.name == "rotation");
         assert!((rotation.unwrap().difference.value - 0.2).abs() < 1e-12);
         assert_eq!(agreement.between_seeds, [Some(1.0), None]);
-        let three = [(1.0, 1, "settled", 0.1), (1.0, 2, "settled", 0.3), (1.0, 3, "pinned", 0.3)];
+        let three = [
+            (1.0, 1, "settled", 0.1),
+            (1.0, 2, "settled", 0.3),
+            (1.0, 3, "pinned", 0.3),
+        ];
         assert_eq!(between_seeds(&table(&three)), Some(1.0 / 3.0));
         let nowhere = table(&[(9.0, 1, "settled", 0.4)]);
         assert!(Agreement::of(&one, &nowhere).is_err());

@@ -20,6 +20,7 @@ pub(crate) fn stop_on_signal(console: &Console) -> Result<&'static AtomicBool, F
     listen(wanted.copied().collect(), move |signal| {
         if STOP.swap(true, Ordering::Relaxed) {
             if signal == SIGINT {
+                phase::external::kill_all();
                 std::process::exit(Exit::Interrupted as i32);
             }
             return;

@@ -2,6 +2,8 @@
 
 use super::console::Console;
 use super::exit::Failure;
+use super::interrupt;
+use phase::document::shown;
 use phase::external::find_version;
 use phase::scene::{ExternalProgram, Scene};
 use phase::sweep::{Folder, Job, Plan, Sweep};
@@ -11,6 +13,7 @@ use std::env;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
 
 /// The option that lets a file start programs.
 #[derive(clap::Args)]
@@ -37,7 +40,7 @@ impl AllowProgram {
         file: &Path,
         console: &Console,
     ) -> Result<bool, Failure> {
-        self.prepare_scenes(&mut scenes_of(sweep), file, console)
+        self.prepare_scenes(&mut sweep.scenes_mut().collect::<Vec<_>>(), file, console)
     }
 
     /// The same for a scene.
@@ -52,7 +55,7 @@ impl AllowProgram {
 
     /// Asks whether a sweep may start its programs, of which it then has some.
     pub(super) fn ask(&self, sweep: &mut Sweep, file: &Path) -> Result<bool, Failure> {
-        self.ask_for(&scenes_of(sweep), file)
+        self.ask_for(&sweep.scenes_mut().collect::<Vec<_>>(), file)
     }
 
     fn prepare_scenes(
@@ -64,7 +67,8 @@ impl AllowProgram {
         if !self.ask_for(scenes, file)? {
             return Ok(false);
         }
-        find_versions(scenes, console)?;
+        let stop = interrupt::stop_on_signal(console)?;
+        find_versions(scenes, stop, console)?;
         Ok(true)
     }
 
@@ -72,7 +76,7 @@ impl AllowProgram {
         let programs = || scenes.iter().filter_map(|scene| scene.program.as_ref());
         let mut names: Vec<String> = programs()
             .flat_map(ExternalProgram::programs)
-            .map(|it| format!("`{it}`"))
+            .map(|it| format!("`{}`", shown(it)))
             .collect();
         names.sort_unstable();
         names.dedup();
@@ -87,7 +91,11 @@ impl AllowProgram {
 }
 
 /// Asks the programs for their versions, each command once.
-fn find_versions(scenes: &mut [&mut Scene], console: &Console) -> Result<(), Failure> {
+fn find_versions(
+    scenes: &mut [&mut Scene],
+    stop: &AtomicBool,
+    console: &Console,
+) -> Result<(), Failure> {
     let mut known: BTreeMap<Vec<String>, String> = BTreeMap::new();
     for program in scenes.iter_mut().filter_map(|it| it.program.as_mut()) {
         if program.version.is_empty() {
@@ -96,8 +104,8 @@ fn find_versions(scenes: &mut [&mut Scene], console: &Console) -> Result<(), Fai
         let found = match known.get(&program.version) {
             Some(found) => found.clone(),
             None => {
-                let found = find_version(&program.version).map_err(Failure::failed)?;
-                console.detail(format_args!("{}: {found}", program.version.join(" ")));
+                let found = find_version(&program.version, stop).map_err(Failure::failed)?;
+                console.detail(format_args!("{}: {}", program.version[0], shown(&found)));
                 known.insert(program.version.clone(), found.clone());
                 found
             }
@@ -122,36 +130,25 @@ pub(super) fn seconds_of_runs(
 /// Gives the programs of a sweep the versions that a results folder keeps of them, if it does.
 /// Starts none. Returns whether a version was found.
 pub(super) fn take_versions(sweep: &mut Sweep, folder: &Folder) -> bool {
-    let asks = |scene: &&mut Scene| {
-        scene
-            .program
-            .as_ref()
-            .is_some_and(|it| !it.version.is_empty())
+    let asks = |scene: &Scene| {
+        let program = scene.program.as_ref();
+        program.is_some_and(|it| !it.version.is_empty())
     };
-    if !scenes_of(sweep).iter().any(asks) {
+    if !sweep.scenes().into_iter().any(asks) {
         return false;
     }
-    let Ok(mut stored) = folder.read_sweep() else {
+    let Ok(stored) = folder.read_sweep() else {
         return false;
     };
-    let stored: Vec<ExternalProgram> = scenes_of(&mut stored)
-        .iter()
-        .filter_map(|scene| scene.program.clone())
-        .collect();
-    for scene in scenes_of(sweep) {
+    let stored = stored.scenes().into_iter();
+    let stored: Vec<ExternalProgram> = stored.filter_map(|it| it.program.clone()).collect();
+    for scene in sweep.scenes_mut() {
         if let Some(program) = &mut scene.program {
             let same = stored.iter().find(|it| it.version == program.version);
             program.found_version = same.and_then(|it| it.found_version.clone());
         }
     }
     true
-}
-
-/// All scenes of a sweep.
-fn scenes_of(sweep: &mut Sweep) -> Vec<&mut Scene> {
-    let variants = sweep.axes.iter_mut().flat_map(|axis| &mut axis.variants);
-    let of_variants = variants.map(|variant| &mut variant.scene);
-    [&mut sweep.scene].into_iter().chain(of_variants).collect()
 }
 
 fn refuse(names: &str, file: &Path) -> Failure {
@@ -186,7 +183,8 @@ fn is_listed(file: &Path) -> Result<bool, Failure> {
         let help = "it may say `programs = [\"/path/of/a/folder\"]`";
         Failure::refused(format_args!("{}; {help}", error.message())).at(&path)
     })?;
-    let Ok(file) = file.canonicalize() else {
+    // A results folder may come from anywhere.
+    let Some(file) = file.canonicalize().ok().filter(|it| it.is_file()) else {
         return Ok(false);
     };
     let listed = configuration.programs.iter();

@@ -50,7 +50,7 @@ impl Runner<'_> {
         let begin = |job: &Job| {
             let scene = job.scene();
             match scene.is_external() {
-                true => external::begin(&scene, self.folder.run_folder(&job.id)),
+                true => external::begin(&scene, self.folder.run_folder(&job.id), !self.force),
                 false => Run::new(&scene),
             }
         };

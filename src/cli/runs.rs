@@ -90,3 +90,14 @@ fn replayed(path: &Path, scene: Option<&Scene>) -> Result<RunRecord, Failure> {
     replay_states(&states, scene)
         .map_err(|error| Failure::refused(format_args!("{error}")).at(path))
 }
+
+/// Refuses the record of another program that kept no states of spheres.
+pub(super) fn refuse_without_spheres(record: &RunRecord, path: &Path) -> Result<(), Failure> {
+    match record.scene.is_external() && record.radius.is_empty() {
+        false => Ok(()),
+        true => Err(Failure::refused(
+            "the record holds no spheres: its program left no states; add `program.states`",
+        )
+        .at(path)),
+    }
+}

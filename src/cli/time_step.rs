@@ -41,7 +41,7 @@ pub(super) fn tightest_limits(jobs: &[Job]) -> Vec<Tightest<'_>> {
 /// Prints the step of a scene over the limit above which it is refused, and whether it is coarse.
 /// `check` explains the consequences of a coarse step.
 pub(super) fn tell_of_scene(scene: &Scene, console: &Console) {
-    if scene.spot.is_some() {
+    if has_no_step(scene) {
         return;
     }
     let standings = StepMargin::all(scene);

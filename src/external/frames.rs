@@ -1,19 +1,19 @@
 //! The frames of a run, from the tables that its program left.
 
 use super::run_folder::RunFolder;
-use super::table::{self, Table};
+use super::table::{self, NumberTable};
 use crate::scene::{ExternalProgram, ProgramTable};
 
 /// The rows that all tables have.
 #[derive(Debug, PartialEq)]
-pub(super) struct Frames {
+pub(super) struct TableFrames {
     /// Time of each row; its number without a column of times.
     pub(super) time: Vec<f64>,
     /// The columns of all tables, in order, as the scene names them.
     pub(super) columns: Vec<Vec<f64>>,
 }
 
-impl Frames {
+impl TableFrames {
     /// Reads the tables, which lie in these files of the folder.
     pub(super) fn read(
         program: &ExternalProgram,
@@ -42,11 +42,11 @@ impl Frames {
     }
 
     /// The columns that are asked for of a table.
-    fn of(asked: &ProgramTable, table: Table) -> Result<Self, String> {
+    fn of(asked: &ProgramTable, table: NumberTable) -> Result<Self, String> {
         let place = |name: &str| {
             let place = table.names.iter().position(|it| it == name);
             place.ok_or_else(|| {
-                let known = table.names.join(", ");
+                let known = table::list(&table.names);
                 format!("there is no column `{name}`; its columns are {known}")
             })
         };
@@ -108,8 +108,8 @@ mod tests {
     use super::*;
     use crate::scene::{ProgramColumn, TableFormat};
 
-    fn frames(text: &str) -> Result<Frames, String> {
-        let table = Table {
+    fn frames(text: &str) -> Result<TableFrames, String> {
+        let table = NumberTable {
             names: vec!["t".to_owned(), "x".to_owned()],
             columns: {
                 let rows: Vec<Vec<f64>> = text
@@ -128,7 +128,7 @@ mod tests {
             time: Some("t".to_owned()),
             columns: vec![ProgramColumn::Name("x".to_owned())],
         };
-        Frames::of(&asked, table)
+        TableFrames::of(&asked, table)
     }
 
     #[test]

@@ -13,6 +13,7 @@ mod states;
 pub mod table;
 mod version;
 
+pub use process::kill_all;
 pub use run_folder::RunFolder;
 pub use version::{VersionError, find_version};
 
@@ -36,17 +37,17 @@ struct NoRunFolder {
 }
 
 /// The run of a scene by its program, in that folder. The program starts when the run advances, and
-/// is ended when the run is dropped before. It goes on from what an earlier run left there if the
-/// scene says how; else what is there is removed.
+/// is ended when the run is dropped before. If it `may_go_on`, it goes on from what the same run left
+/// there that was stopped, and if the scene says how; else what is there is removed.
 ///
 /// # Errors
 /// If the scene has no program, or the folder cannot be made or is of something else.
-pub fn begin(scene: &Scene, run_folder: RunFolder) -> Result<Run, BuildError> {
-    let (Some(program), Some(filled)) = (&scene.program, scene.filled_program()) else {
+pub fn begin(scene: &Scene, run_folder: RunFolder, may_go_on: bool) -> Result<Run, BuildError> {
+    if scene.program.is_none() {
         return Err(BuildError::new(NoProgram));
-    };
+    }
     let path = run_folder.path().to_owned();
-    let simulation = ExternalSimulation::new(program.clone(), filled, run_folder);
+    let simulation = ExternalSimulation::new(scene, run_folder, may_go_on);
     let simulation = simulation.map_err(|source| BuildError::new(NoRunFolder { path, source }))?;
     Ok(Run::with_simulation(scene, Box::new(simulation)))
 }

@@ -4,6 +4,7 @@ use std::fs::File;
 use std::io;
 use std::path::Path;
 use std::process::{Child, Command, ExitStatus, Stdio};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
@@ -14,13 +15,13 @@ const GRACE: Duration = Duration::from_secs(5);
 const LOOK: Duration = Duration::from_millis(20);
 
 /// A process that is ended, with all that it started, when this is dropped.
-pub(super) struct Process {
+pub(super) struct ChildProcess {
     child: Child,
     started: Instant,
     has_ended: bool,
 }
 
-impl Process {
+impl ChildProcess {
     /// Starts a program with its words in a folder. What it says goes to `output`.
     pub(super) fn start(words: &[String], folder: &Path, output: &File) -> io::Result<Self> {
         let (program, words) = words.split_first().ok_or(io::ErrorKind::InvalidInput)?;
@@ -33,8 +34,11 @@ impl Process {
             .stderr(output.try_clone()?);
         #[cfg(unix)]
         std::os::unix::process::CommandExt::process_group(&mut command, 0);
+        let mut alive = lock(&ALIVE);
+        let child = command.spawn()?;
+        alive.push(child.id());
         Ok(Self {
-            child: command.spawn()?,
+            child,
             started: Instant::now(),
             has_ended: false,
         })
@@ -45,7 +49,7 @@ impl Process {
         let (begin, mut pause) = (Instant::now(), Duration::from_micros(500));
         loop {
             if let Some(status) = self.child.try_wait()? {
-                self.has_ended = true;
+                self.note_end();
                 return Ok(Some(status));
             }
             if begin.elapsed() + pause > LOOK {
@@ -66,7 +70,7 @@ impl Process {
         if self.has_ended {
             return;
         }
-        self.signal(Request::End);
+        signal(self.child.id(), Request::End);
         let asked = Instant::now();
         while asked.elapsed() < GRACE {
             match self.look() {
@@ -74,27 +78,52 @@ impl Process {
                 _ => break,
             }
         }
-        // What it started may still be there.
-        self.signal(Request::Kill);
+        signal(self.child.id(), Request::Kill);
         let _ = self.child.kill();
         let _ = self.child.wait();
+        self.note_end();
+    }
+
+    /// Ends what it started and left.
+    fn note_end(&mut self) {
+        if !self.has_ended {
+            signal(self.child.id(), Request::Kill);
+            lock(&ALIVE).retain(|it| *it != self.child.id());
+        }
         self.has_ended = true;
     }
-
-    #[cfg(unix)]
-    fn signal(&self, request: Request) {
-        use rustix::process::{Pid, Signal, kill_process_group};
-        let signal = match request {
-            Request::End => Signal::TERM,
-            Request::Kill => Signal::KILL,
-        };
-        // It may have ended by itself.
-        let _ = kill_process_group(Pid::from_child(&self.child), signal);
-    }
-
-    #[cfg(not(unix))]
-    fn signal(&self, _request: Request) {}
 }
+
+/// The programs that run now.
+static ALIVE: Mutex<Vec<u32>> = Mutex::new(Vec::new());
+
+fn lock(alive: &Mutex<Vec<u32>>) -> MutexGuard<'_, Vec<u32>> {
+    alive.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Kills all programs that run now, before this one ends at once.
+pub fn kill_all() {
+    lock(&ALIVE)
+        .iter()
+        .for_each(|group| signal(*group, Request::Kill));
+}
+
+/// Signals a program with all that it started, which are the group of its number.
+#[cfg(unix)]
+fn signal(group: u32, request: Request) {
+    use rustix::process::{Pid, Signal, kill_process_group};
+    let signal = match request {
+        Request::End => Signal::TERM,
+        Request::Kill => Signal::KILL,
+    };
+    // All of them may have ended.
+    if let Some(group) = Pid::from_raw(group as i32) {
+        let _ = kill_process_group(group, signal);
+    }
+}
+
+#[cfg(not(unix))]
+fn signal(_group: u32, _request: Request) {}
 
 /// What a process is asked for.
 enum Request {
@@ -102,7 +131,7 @@ enum Request {
     Kill,
 }
 
-impl Drop for Process {
+impl Drop for ChildProcess {
     fn drop(&mut self) {
         self.end();
     }

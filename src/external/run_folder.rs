@@ -1,26 +1,33 @@
 //! The folder of a run of another program.
 
-use crate::scene::{Keep, Scene, TemplateText};
-use std::fs::{self, File, OpenOptions};
+use crate::document::shown;
+use crate::scene::{ExternalProgram, Keep, Scene, TemplateText};
+use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
 /// What the program says. The folder of a run is known by it.
 const OUTPUT: &str = "phase-output.txt";
 
-/// Why a run failed. Such a run begins anew.
+/// The identity of the run that may go on from what the folder holds. A run that has ended, well or
+/// not, leaves none.
+const IDENTITY: &str = "phase-run.txt";
+
+/// Why a run failed.
 const FAILURE: &str = "phase-failed.txt";
 
 /// Most of the output that is read for its last lines (bytes).
 const TAIL: u64 = 4096;
 
-/// Most of its last lines that are shown, and most of a line (characters).
-const SHOWN: (usize, usize) = (6, 200);
+/// Most of its last lines that are shown.
+const SHOWN: usize = 6;
 
 /// The folder of a run of another program.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RunFolder {
     path: PathBuf,
+    /// Whether nothing else than a run's folder can have its name.
+    is_ours: bool,
 }
 
 impl RunFolder {
@@ -31,7 +38,18 @@ impl RunFolder {
             true => record.with_extension("run"),
             false => record.with_added_extension("run"),
         };
-        Self { path }
+        Self {
+            path,
+            is_ours: false,
+        }
+    }
+
+    /// The same in the folder of all records of a sweep, where it is a run's whatever it holds.
+    pub(crate) fn of_sweep(record: &Path) -> Self {
+        Self {
+            is_ours: true,
+            ..Self::beside(record)
+        }
     }
 
     /// The folder.
@@ -44,26 +62,57 @@ impl RunFolder {
         self.path.join(OUTPUT)
     }
 
-    /// Whether a run that did not fail has left a file here.
-    pub(super) fn goes_on_from(&self, file: &str) -> bool {
-        self.output().is_file()
-            && !self.path.join(FAILURE).exists()
-            && self.path.join(file).is_file()
+    /// Whether a run of this identity that has not ended has left a file here.
+    pub(super) fn goes_on_from(&self, file: &str, identity: &str) -> bool {
+        let own = fs::read_to_string(self.path.join(IDENTITY));
+        own.is_ok_and(|it| it.trim() == identity) && self.path.join(file).is_file()
     }
 
-    /// Makes the folder anew, with these files.
-    pub(super) fn make(&self, files: &[TemplateText]) -> io::Result<()> {
+    /// Makes the folder anew for a run of this identity, with these files. What its programs say
+    /// goes to the file that is returned.
+    pub(super) fn make(&self, identity: &str, files: &[TemplateText]) -> io::Result<File> {
         self.remove()?;
         fs::create_dir_all(&self.path)?;
-        File::create(self.output())?;
+        let output = self.take_output()?;
         for file in files {
-            let path = self.path.join(&file.name);
-            if let Some(folder) = path.parent() {
-                fs::create_dir_all(folder)?;
-            }
-            fs::write(path, &file.text)?;
+            self.write(file)
+                .map_err(|error| io::Error::new(error.kind(), format!("{}: {error}", file.name)))?;
         }
-        Ok(())
+        fs::write(self.path.join(IDENTITY), format!("{identity}\n"))?;
+        Ok(output)
+    }
+
+    fn write(&self, file: &TemplateText) -> io::Result<()> {
+        if !ExternalProgram::is_inside(&file.name) {
+            return Err(io::Error::other(
+                "it would not lie in the folder of the run",
+            ));
+        }
+        let path = self.path.join(&file.name);
+        if let Some(folder) = path.parent() {
+            fs::create_dir_all(folder)?;
+        }
+        fs::write(path, &file.text)
+    }
+
+    /// Notes that the run has ended: nothing goes on from what it has left.
+    pub(super) fn note_end(&self) {
+        let _ = fs::remove_file(self.path.join(IDENTITY));
+    }
+
+    /// The file of what the programs say, locked for as long as any of them has it open: a program
+    /// outlives a `phase` that is killed.
+    pub(super) fn take_output(&self) -> io::Result<File> {
+        let mut options = OpenOptions::new();
+        let output = options.append(true).create(true).open(self.output())?;
+        match output.try_lock() {
+            Err(TryLockError::WouldBlock) => Err(io::Error::other(
+                "a program that an earlier `phase` started still runs here; end it, or wait until \
+                 it ends",
+            )),
+            // Not all file systems have locks.
+            _ => Ok(output),
+        }
     }
 
     /// Refuses a folder that is no run's, with something in it.
@@ -72,7 +121,7 @@ impl RunFolder {
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
             entries => entries?,
         };
-        match self.output().is_file() || entries.count() == 0 {
+        match self.is_ours || self.output().is_file() || entries.count() == 0 {
             true => Ok(()),
             false => Err(io::Error::other(
                 "this is no folder of a run, and would be emptied; move it away",
@@ -95,20 +144,18 @@ impl RunFolder {
     /// Removes it with all that is in it.
     pub(super) fn remove(&self) -> io::Result<()> {
         self.check()?;
+        if self.output().is_file() {
+            self.take_output()?;
+        }
         match fs::remove_dir_all(&self.path) {
             Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
             _ => Ok(()),
         }
     }
 
-    /// The end of the file of what the program says.
-    pub(super) fn open_output(&self) -> io::Result<File> {
-        let mut options = OpenOptions::new();
-        options.append(true).create(true).open(self.output())
-    }
-
-    /// Notes that the run has failed. Without the note it may go on from what it has left.
+    /// Notes that the run has failed.
     pub(super) fn note_failure(&self, reason: &str) {
+        self.note_end();
         let _ = fs::write(self.path.join(FAILURE), format!("{reason}\n"));
     }
 
@@ -116,16 +163,9 @@ impl RunFolder {
     pub(super) fn last_lines(&self) -> String {
         let tail = self.tail().unwrap_or_default();
         let text = String::from_utf8_lossy(&tail);
-        let plain = |line: &str| -> String {
-            let signs = line.trim().chars().filter(|it| !it.is_control());
-            signs.take(SHOWN.1).collect()
-        };
-        let lines: Vec<String> = text
-            .lines()
-            .map(plain)
-            .filter(|it| !it.is_empty())
-            .collect();
-        let first = lines.len().saturating_sub(SHOWN.0);
+        let lines = text.lines().map(str::trim).filter(|it| !it.is_empty());
+        let lines: Vec<String> = lines.map(shown).collect();
+        let first = lines.len().saturating_sub(SHOWN);
         lines[first..].join(" | ")
     }
 

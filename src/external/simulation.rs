@@ -1,11 +1,11 @@
 //! A run of another program as a simulation: it runs, then its rows are the frames.
 
-use super::frames::Frames;
-use super::process::Process;
+use super::frames::TableFrames;
+use super::process::ChildProcess;
 use super::run_folder::RunFolder;
 use super::states;
-use crate::document::lasting;
-use crate::scene::{ExternalProgram, FilledProgram, ProgramColumn};
+use crate::document::{lasting, shown};
+use crate::scene::{ExternalProgram, FilledProgram, ProgramColumn, Scene};
 use crate::simulation::{Column, Frame, FrameView, Instability, Simulation, Snapshot, StateError};
 use std::fs::File;
 use std::io;
@@ -13,15 +13,18 @@ use std::process::ExitStatus;
 use std::time::{Duration, Instant};
 
 /// Time between two looks at the size of a folder.
-const WEIGHING: Duration = Duration::from_secs(1);
+const WEIGHING: Duration = Duration::from_millis(250);
 
 /// A run of another program.
 pub(super) struct ExternalSimulation {
     program: ExternalProgram,
     filled: FilledProgram,
+    identity: String,
     run_folder: RunFolder,
+    /// Where what the programs say goes; none after a failure.
+    output: Option<File>,
     columns: Vec<Column>,
-    stage: Stage,
+    stage: RunStage,
     /// How often it has failed.
     failures: u32,
     /// Time that ended commands of this attempt took.
@@ -34,13 +37,13 @@ pub(super) struct ExternalSimulation {
 }
 
 /// How far a run is.
-enum Stage {
+enum RunStage {
     /// A command is to be started.
     Ready(Commands),
     /// A command runs.
-    Running(Commands, Process, Instant),
+    Running(Commands, ChildProcess, Instant),
     /// The frames are there, and the row is shown.
-    Showing(Frames, usize),
+    Showing(TableFrames, usize),
     /// It cannot go on.
     Failed(String),
 }
@@ -55,19 +58,19 @@ struct Commands {
 
 impl ExternalSimulation {
     /// A run at its start, or where an earlier one in this folder was stopped.
-    pub(super) fn new(
-        program: ExternalProgram,
-        filled: FilledProgram,
-        run_folder: RunFolder,
-    ) -> io::Result<Self> {
-        let resumed = filled.resume.clone();
-        let resumed = resumed.filter(|(file, _)| run_folder.goes_on_from(file));
-        let commands = match resumed {
-            Some((_, commands)) => commands,
-            None => {
-                run_folder.make(&filled.files)?;
-                filled.commands.clone()
-            }
+    pub(super) fn new(scene: &Scene, run_folder: RunFolder, may_go_on: bool) -> io::Result<Self> {
+        let absent = || io::Error::other("the scene names no program");
+        let program = scene.program.clone().ok_or_else(absent)?;
+        let filled = scene.filled_program().ok_or_else(absent)?;
+        let identity = scene.identity();
+        let resumed = filled.resume.clone().filter(|_| may_go_on);
+        let resumed = resumed.filter(|(file, _)| run_folder.goes_on_from(file, &identity));
+        let (commands, output) = match resumed {
+            Some((_, commands)) => (commands, run_folder.take_output()?),
+            None => (
+                filled.commands.clone(),
+                run_folder.make(&identity, &filled.files)?,
+            ),
         };
         let column = |column: &ProgramColumn| Column {
             name: lasting(column.name()),
@@ -78,8 +81,10 @@ impl ExternalSimulation {
             columns: program.columns().map(column).collect(),
             program,
             filled,
+            identity,
+            output: Some(output),
             run_folder,
-            stage: Stage::Ready(Commands {
+            stage: RunStage::Ready(Commands {
                 all: commands,
                 at: 0,
             }),
@@ -93,33 +98,34 @@ impl ExternalSimulation {
     }
 
     /// What follows a command that can be started.
-    fn start(&self, commands: Commands) -> Result<Stage, String> {
+    fn start(&self, commands: Commands) -> Result<RunStage, String> {
         let Some(words) = commands.all.get(commands.at) else {
-            return Ok(Stage::Showing(self.read()?, 0));
+            return Ok(RunStage::Showing(self.read()?, 0));
         };
-        let program = words.first().map_or("", String::as_str);
+        let program = shown(words.first().map_or("", String::as_str));
         let refuse = |error: io::Error| match error.kind() {
             io::ErrorKind::NotFound => {
                 format!(
-                    "cannot start `{program}`: there is no such program; install it, or write \
-                         its full path"
+                    "cannot start `{program}`: there is no such program, or no interpreter for it; \
+                     install it, write its full path, or write the program and its words as \
+                     separate words"
                 )
             }
             _ => format!("cannot start `{program}`: {error}"),
         };
-        let output: File = self.run_folder.open_output().map_err(refuse)?;
-        let process = Process::start(words, self.run_folder.path(), &output).map_err(refuse)?;
-        Ok(Stage::Running(commands, process, Instant::now()))
+        let output = self.output.as_ref().ok_or("its folder is gone")?;
+        let process = ChildProcess::start(words, self.run_folder.path(), output).map_err(refuse)?;
+        Ok(RunStage::Running(commands, process, Instant::now()))
     }
 
     /// What follows after a look at a command that runs.
     fn watch(
         &mut self,
         mut commands: Commands,
-        mut process: Process,
+        mut process: ChildProcess,
         weighed: Instant,
-    ) -> Result<Stage, String> {
-        let words = commands.all[commands.at].join(" ");
+    ) -> Result<RunStage, String> {
+        let words = shown(&commands.all[commands.at].join(" "));
         let status = process
             .look()
             .map_err(|error| format!("`{words}`: {error}"))?;
@@ -129,11 +135,12 @@ impl ExternalSimulation {
                 return Err(format!("`{words}` failed ({})", describe(status)));
             }
             commands.at += 1;
-            return Ok(Stage::Ready(commands));
+            return Ok(RunStage::Ready(commands));
         }
         let limit = self.program.time_limit;
         if limit.is_some_and(|limit| (self.spent + process.age()).as_secs_f64() > limit) {
             let limit = limit.unwrap_or_default();
+            self.spent += process.age();
             return Err(format!(
                 "`{words}` took longer than `program.time_limit` = {limit} s and was ended"
             ));
@@ -144,7 +151,7 @@ impl ExternalSimulation {
             self.weigh()
                 .map_err(|reason| format!("`{words}` {reason} and was ended"))?;
         }
-        Ok(Stage::Running(commands, process, weighed))
+        Ok(RunStage::Running(commands, process, weighed))
     }
 
     /// Refuses a folder that has become too large.
@@ -163,10 +170,10 @@ impl ExternalSimulation {
         status.code().is_some_and(|code| codes.contains(&code))
     }
 
-    fn read(&self) -> Result<Frames, String> {
+    fn read(&self) -> Result<TableFrames, String> {
         self.weigh()
             .map_err(|reason| format!("the program {reason}"))?;
-        Frames::read(&self.program, &self.filled.tables, &self.run_folder)
+        TableFrames::read(&self.program, &self.filled.tables, &self.run_folder)
     }
 
     /// Reads the states, if there are any.
@@ -174,7 +181,8 @@ impl ExternalSimulation {
         let Some((file, radius)) = &self.filled.states else {
             return Ok(());
         };
-        let (snapshots, count) = states::read(file, &self.run_folder)?;
+        let (snapshots, count) =
+            states::read(file, self.program.most_bytes as u64, &self.run_folder)?;
         self.radius = vec![*radius; count];
         self.mass = vec![f64::NAN; count];
         self.snapshots = Some(snapshots);
@@ -182,16 +190,23 @@ impl ExternalSimulation {
     }
 
     /// What follows a failure: another attempt, or the end.
-    fn fail(&mut self, reason: String) -> Stage {
+    fn fail(&mut self, reason: String) -> RunStage {
         self.failures += 1;
         self.seconds += self.spent.as_secs_f64();
         self.spent = Duration::ZERO;
-        let again = self.failures <= self.program.retries;
-        if again && self.run_folder.make(&self.filled.files).is_ok() {
-            let all = self.filled.commands.clone();
-            return Stage::Ready(Commands { all, at: 0 });
-        }
+        // Its lock goes with it.
+        self.output = None;
         let mut told = reason;
+        if self.failures <= self.program.retries {
+            match self.run_folder.make(&self.identity, &self.filled.files) {
+                Ok(output) => {
+                    self.output = Some(output);
+                    let all = self.filled.commands.clone();
+                    return RunStage::Ready(Commands { all, at: 0 });
+                }
+                Err(error) => told += &format!("; it cannot be tried again: {error}"),
+            }
+        }
         if self.program.retries > 0 {
             told += &format!(", in {} of as many attempts", self.failures);
         }
@@ -200,7 +215,7 @@ impl ExternalSimulation {
             told += &format!("; its last lines: {lines}");
         }
         self.run_folder.note_failure(&told);
-        Stage::Failed(told)
+        RunStage::Failed(told)
     }
 }
 
@@ -215,15 +230,18 @@ fn describe(status: ExitStatus) -> String {
 
 impl Simulation for ExternalSimulation {
     fn advance_frame(&mut self) -> Result<(), Instability> {
-        let stage = std::mem::replace(&mut self.stage, Stage::Failed(String::new()));
+        let stage = std::mem::replace(&mut self.stage, RunStage::Failed(String::new()));
         let next = match stage {
-            Stage::Ready(commands) => self.start(commands),
-            Stage::Running(commands, process, weighed) => self.watch(commands, process, weighed),
-            Stage::Showing(frames, row) => Ok(Stage::Showing(frames, row + 1)),
-            Stage::Failed(reason) => Ok(Stage::Failed(reason)),
+            RunStage::Ready(commands) => self.start(commands),
+            RunStage::Running(commands, process, weighed) => self.watch(commands, process, weighed),
+            RunStage::Showing(frames, row) => Ok(RunStage::Showing(frames, row + 1)),
+            RunStage::Failed(reason) => Ok(RunStage::Failed(reason)),
         };
         let next = match next {
-            Ok(Stage::Showing(frames, 0)) => self.read_states().map(|()| Stage::Showing(frames, 0)),
+            Ok(RunStage::Showing(frames, 0)) => {
+                self.run_folder.note_end();
+                self.read_states().map(|()| RunStage::Showing(frames, 0))
+            }
             next => next,
         };
         self.stage = match next {
@@ -235,21 +253,21 @@ impl Simulation for ExternalSimulation {
 
     fn time(&self) -> f64 {
         match &self.stage {
-            Stage::Showing(frames, row) => frames.time[*row],
+            RunStage::Showing(frames, row) => frames.time[*row],
             _ => 0.0,
         }
     }
 
     fn ended(&self) -> bool {
         match &self.stage {
-            Stage::Ready(_) | Stage::Running(..) => false,
-            Stage::Showing(frames, row) => row + 1 >= frames.time.len(),
-            Stage::Failed(_) => true,
+            RunStage::Ready(_) | RunStage::Running(..) => false,
+            RunStage::Showing(frames, row) => row + 1 >= frames.time.len(),
+            RunStage::Failed(_) => true,
         }
     }
 
     fn has_frame(&self) -> bool {
-        matches!(self.stage, Stage::Showing(..))
+        matches!(self.stage, RunStage::Showing(..))
     }
 
     fn frames(&self) -> Option<u64> {
@@ -258,7 +276,7 @@ impl Simulation for ExternalSimulation {
 
     fn failure(&self) -> Option<&str> {
         match &self.stage {
-            Stage::Failed(reason) => Some(reason),
+            RunStage::Failed(reason) => Some(reason),
             _ => None,
         }
     }
@@ -301,7 +319,7 @@ impl Simulation for ExternalSimulation {
 
     fn values(&mut self) -> Vec<f64> {
         match &self.stage {
-            Stage::Showing(frames, row) => frames.columns.iter().map(|it| it[*row]).collect(),
+            RunStage::Showing(frames, row) => frames.columns.iter().map(|it| it[*row]).collect(),
             _ => Vec::new(),
         }
     }

@@ -6,14 +6,26 @@ use crate::simulation::Snapshot;
 use crate::store;
 use ndarray::Array2;
 use std::collections::BTreeMap;
+use std::fs;
 
 /// Largest number of coordinates of all states together.
 const MOST_COORDINATES: usize = 100_000_000;
 
 /// The states in a file of the folder, with the number of spheres. Velocities are unknown, and the
 /// places of spheres that a state lacks: they are not numbers.
-pub(super) fn read(file: &str, run_folder: &RunFolder) -> Result<(Vec<Snapshot>, usize), String> {
+pub(super) fn read(
+    file: &str,
+    most_bytes: u64,
+    run_folder: &RunFolder,
+) -> Result<(Vec<Snapshot>, usize), String> {
     let path = run_folder.path().join(file);
+    let size = fs::metadata(&path).map(|it| it.is_file().then_some(it.len()));
+    match size {
+        Ok(Some(size)) if size <= most_bytes => {}
+        Ok(Some(size)) => return Err(format!("{}: {size} bytes are too many", path.display())),
+        Ok(None) => return Err(format!("{}: this is no file", path.display())),
+        Err(error) => return Err(format!("{}: {error}", path.display())),
+    }
     let states = store::read_states(&path).map_err(|error| error.to_string())?;
     let numbers = states.iter().flat_map(|it| &it.spheres).map(|it| (it.0, 0));
     let mut places: BTreeMap<u64, usize> = numbers.collect();

@@ -2,7 +2,7 @@
 
 use super::{Contact, Door, Friction, Geometry, Outlet, Rest, Rolling};
 use super::{
-    DemScene, Driven, Effects, ExternalProgram, Guards, Neighbours, Output, Parameters,
+    DemScene, Driven, Effects, ExternalProgram, Guards, Neighbours, Output, ProgramParameters,
     ProgramResume, ProgramStates, ProgramTable, Scene, Spheres, Spot, Start, Steady, Tank,
     TemplateFile, Time,
 };
@@ -51,7 +51,7 @@ struct MotionKeys<'a> {
 #[derive(Serialize)]
 struct ProgramKeys<'a> {
     seed: u64,
-    parameters: &'a Parameters,
+    parameters: &'a ProgramParameters,
     commands: &'a [Vec<String>],
     files: &'a [TemplateFile],
     read: &'a [ProgramTable],
@@ -169,10 +169,12 @@ impl Scene {
         }
     }
 
-    /// The scene without title and neighbour search, which do not affect results.
+    /// The scene without title, neighbour search and the limits of a program, which do not affect
+    /// results.
     pub(crate) fn without_names(self) -> Self {
         Self {
             title: None,
+            program: self.program.map(ExternalProgram::without_limits),
             dem: DemScene {
                 neighbours: Neighbours::default(),
                 ..self.dem

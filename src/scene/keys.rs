@@ -12,9 +12,6 @@ const SAFETY_FACTOR_KEY: &str = "time.safety_factor";
 /// Constraint on entries of a vector.
 static COMPONENT: ValueKind = ValueKind::Number(NumberRange::ANY);
 
-/// Constraint on parameters that a file gives as whole numbers.
-static COUNT: ValueKind = ValueKind::Whole(0);
-
 /// The table of what other programs are given.
 const PARAMETERS: &str = "parameters";
 
@@ -242,12 +239,8 @@ fn collect(
         }
         ValueKind::AnyTable if path == PARAMETERS => {
             let parameters = value.and_then(Value::as_object).into_iter().flatten();
-            for (name, value) in parameters.filter(|(_, value)| value.is_number()) {
-                let kind = match value.is_u64() {
-                    true => &COUNT,
-                    false => &COMPONENT,
-                };
-                push(format!("{path}.{name}"), kind, None);
+            for (name, _) in parameters.filter(|(_, value)| value.is_number()) {
+                push(format!("{path}.{name}"), &COMPONENT, None);
             }
         }
         ValueKind::Text

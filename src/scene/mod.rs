@@ -47,7 +47,7 @@ pub(crate) use keys::{leaf, may_hold};
 pub use output::{Layer, Output};
 use program::absent;
 pub use program::{
-    DescribedColumn, ExternalProgram, FilledProgram, Keep, Parameters, ProgramColumn,
+    DescribedColumn, ExternalProgram, FilledProgram, Keep, ProgramColumn, ProgramParameters,
     ProgramResume, ProgramStates, ProgramTable, TableFormat, TemplateFile, TemplateText,
 };
 pub use radius::{Radii, RadiusShare};
@@ -111,8 +111,8 @@ pub struct Scene {
     pub program: Option<ExternalProgram>,
     /// What the program of the scene is given, by name: numbers, which may be axes; texts; true or
     /// false.
-    #[serde(default, skip_serializing_if = "Parameters::is_empty")]
-    pub parameters: Parameters,
+    #[serde(default, skip_serializing_if = "ProgramParameters::is_empty")]
+    pub parameters: ProgramParameters,
     /// Required accuracy of the numerics: chooses `integrator`, `dt = "auto"` with its
     /// `safety_factor`, and `frame_interval` of `time`, unless the file gives them. The scene of a
     /// run has the chosen settings instead of this key.
@@ -205,7 +205,7 @@ impl Scene {
             dem: DemScene::default(),
             spot: None,
             program: None,
-            parameters: Parameters::new(),
+            parameters: ProgramParameters::new(),
             accuracy: None,
             time,
             steady: None,

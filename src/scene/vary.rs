@@ -14,6 +14,8 @@ use std::sync::{Mutex, PoisonError};
 pub(crate) struct Template {
     tree: Mutex<Value>,
     keys: Vec<NumericKey>,
+    /// Keys of parameters of a program that the scene gives as whole numbers: they stay whole.
+    whole_parameters: Vec<String>,
     /// The start shared by all scenes, if it lists spheres and no key belongs to one of them. In a
     /// tree of values a sphere takes more than a kilobyte.
     start: Option<Start>,
@@ -35,6 +37,7 @@ impl Template {
         Ok(Self {
             tree: Mutex::new(scene.tree()),
             keys: paths.iter().map(key).collect::<Result<_, _>>()?,
+            whole_parameters: whole_parameters(whole),
             start: matches!(scene, Cow::Owned(_)).then(|| whole.start.clone()),
         })
     }
@@ -48,12 +51,12 @@ impl Template {
         // All keys are set each time, so that a tree left half set does no harm.
         let mut tree = self.tree.lock().unwrap_or_else(PoisonError::into_inner);
         for (key, &value) in self.keys.iter().zip(values) {
-            let is_count = matches!(key.kind, ValueKind::Whole(_))
-                && value >= 0.0
-                && libm::trunc(value) == value;
-            let number = match is_count {
-                true => Value::from(value as u64),
-                false => Value::from(value),
+            let is_count = matches!(key.kind, ValueKind::Whole(_)) && value >= 0.0;
+            let is_whole = libm::trunc(value) == value;
+            let number = match (is_count, self.whole_parameters.contains(&key.path)) {
+                (true, _) if is_whole => Value::from(value as u64),
+                (_, true) if is_whole => Value::from(value as i64),
+                _ => Value::from(value),
             };
             key.kind.check(&number, &key.path, &mut problems);
             set(&mut tree, &key.path, number);
@@ -68,6 +71,15 @@ impl Template {
         }
         Ok(scene)
     }
+}
+
+/// Paths of the parameters of a program that are whole numbers.
+fn whole_parameters(scene: &Scene) -> Vec<String> {
+    let parameters = scene.parameters.iter();
+    let whole = parameters.filter(|(_, value)| value.is_i64() || value.is_u64());
+    whole
+        .map(|(name, _)| format!("parameters.{name}"))
+        .collect()
 }
 
 /// Puts a value at a path whose tables and lists exist.

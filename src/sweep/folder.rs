@@ -281,7 +281,7 @@ impl Folder {
 
     /// The folder in which the program of the run with that identity runs.
     pub fn run_folder(&self, id: &str) -> RunFolder {
-        RunFolder::beside(&self.record(id))
+        RunFolder::of_sweep(&self.record(id))
     }
 
     /// Reads the record of the run with that identity.

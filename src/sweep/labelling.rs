@@ -4,6 +4,7 @@ use super::{Folder, Job, PlotSettings, Sweep, work};
 use crate::classify::{self, ClassifyError, Label, LabelRow, LabelTable, Sieves};
 use crate::document::differing_keys;
 use crate::refusal::Refusal;
+use crate::scene::ExternalProgram;
 use crate::store::{self, StoreError};
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::path::PathBuf;
@@ -283,7 +284,10 @@ impl Sweep {
                 ..sweep.clone()
             };
             runs.scene.title = None;
-            runs.scenes_mut().for_each(|it| it.output.columns.clear());
+            for scene in runs.scenes_mut() {
+                scene.output.columns.clear();
+                scene.program = scene.program.take().map(ExternalProgram::without_limits);
+            }
             runs
         };
         differing_keys(&runs(self), &runs(edited))

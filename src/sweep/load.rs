@@ -153,6 +153,13 @@ fn check_sieves(sweep: &Sweep, tree: &Value, problems: &mut Vec<Problem>) {
     let variants = sweep.axes.iter().flat_map(|axis| &axis.variants);
     let variants: Vec<&Scene> = variants.map(|variant| &variant.scene).collect();
     problems.extend(sweep.sieves.rules.problems(&sweep.scene, &variants));
+    for (place, rule) in sweep.sieves.rules.measures.iter().enumerate() {
+        if sweep.axes.iter().any(|axis| axis.name == rule.name) {
+            let message = format!("an axis has the name `{}` already", rule.name);
+            let problem = Problem::new(format!("measure[{place}].name"), message);
+            problems.push(problem.help("use another name: both are columns of one table"));
+        }
+    }
     let family = Family::of(&sweep.scene);
     let has_labels = !sweep.sieves.rules.labels.is_empty();
     if has_labels && tree.get("sieves").is_some() {

@@ -90,7 +90,7 @@ impl Sweep {
     }
 
     /// Its scene and those of its variants.
-    fn scenes_mut(&mut self) -> impl Iterator<Item = &mut Scene> {
+    pub fn scenes_mut(&mut self) -> impl Iterator<Item = &mut Scene> {
         let variants = self.axes.iter_mut().flat_map(|axis| &mut axis.variants);
         let of_variants = variants.map(|variant| &mut variant.scene);
         of_variants.chain([&mut self.scene])

@@ -48,7 +48,11 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     let shards = match arguments.chunk {
         None => next.shards(&places, 0.0, Duration::ZERO),
         Some(_) if places.is_empty() => Vec::new(),
-        Some(time) => next.shards(&places, cluster::forecast(&next, &places, &handed.folder)?.rate, time),
+        Some(time) => next.shards(
+            &places,
+            cluster::forecast(&next, &places, &handed.folder)?.rate,
+            time,
+        ),
     };
     let lines: Vec<String> = shards.iter().map(Shard::to_string).collect();
     for line in &lines {

@@ -8,7 +8,7 @@ mod words;
 
 use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
-use crate::cli::runs::check_labels;
+use crate::cli::runs::{self, check_labels};
 use crate::cli::values;
 use crate::cli::{folders, format};
 use moment::{Moment, evenly};
@@ -173,7 +173,11 @@ fn read(arguments: &Arguments) -> Result<Vec<RunRecord>, Failure> {
         .records
         .iter()
         .map(|path| store::read_record(path));
-    Ok(records.collect::<Result<_, _>>()?)
+    let records: Vec<RunRecord> = records.collect::<Result<_, _>>()?;
+    for (record, path) in records.iter().zip(&arguments.records) {
+        runs::refuse_without_spheres(record, path)?;
+    }
+    Ok(records)
 }
 
 /// The states to show of every record.

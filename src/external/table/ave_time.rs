@@ -1,8 +1,8 @@
 //! What `fix ave/time` of LAMMPS writes, of scalars.
 
-use super::Table;
+use super::NumberTable;
 use super::bytes::{Line, lines};
-use super::columns::{Columns, STOPPED, no_rows};
+use super::columns::{RowReader, STOPPED, no_rows};
 use super::error::{TableError, list, quote};
 use std::path::Path;
 
@@ -10,8 +10,8 @@ use std::path::Path;
 const FIRST_NAME: &str = "TimeStep";
 
 /// Reads a table.
-pub(super) fn read(path: &Path, text: &str) -> Result<Table, TableError> {
-    let mut columns: Option<Columns<'_>> = None;
+pub(super) fn read(path: &Path, text: &str) -> Result<NumberTable, TableError> {
+    let mut columns: Option<RowReader<'_>> = None;
     let mut last = None;
     for line in lines(text).filter(|line| !line.text.trim().is_empty()) {
         last = Some(line);
@@ -21,7 +21,7 @@ pub(super) fn read(path: &Path, text: &str) -> Result<Table, TableError> {
             if names.first().is_some_and(|name| name == FIRST_NAME) {
                 check_same(path, columns.as_ref(), &names, line)?;
                 if columns.is_none() {
-                    columns = Some(Columns::new(path, names, Some(line.number))?);
+                    columns = Some(RowReader::new(path, names, Some(line.number))?);
                 }
             }
             continue;
@@ -69,11 +69,14 @@ fn check_kind(path: &Path, line: Line<'_>, comment: &str) -> Result<(), TableErr
 /// A file to which several runs append has a line of names for each.
 fn check_same(
     path: &Path,
-    columns: Option<&Columns<'_>>,
+    columns: Option<&RowReader<'_>>,
     names: &[String],
     line: Line<'_>,
 ) -> Result<(), TableError> {
-    match columns.map(Columns::names).filter(|known| *known != names) {
+    match columns
+        .map(RowReader::names)
+        .filter(|known| *known != names)
+    {
         Some(known) => {
             let (known, names) = (list(known), list(names));
             let message = format!("the columns become {names} here, but were {known} before");

@@ -1,14 +1,14 @@
-//! Columns that grow row by row.
+//! RowReader that grow row by row.
 
-use super::Table;
+use super::NumberTable;
 use super::error::{TableError, count, quote};
 use std::collections::HashSet;
 use std::path::Path;
 
 /// A table that is being read.
-pub(super) struct Columns<'p> {
+pub(super) struct RowReader<'p> {
     path: &'p Path,
-    table: Table,
+    table: NumberTable,
 }
 
 /// Where a row stands.
@@ -20,8 +20,8 @@ pub(super) struct RowPlace {
     pub(super) is_ended: bool,
 }
 
-impl<'p> Columns<'p> {
-    /// Columns without rows. The names stand in `line`, if they stand in the file.
+impl<'p> RowReader<'p> {
+    /// RowReader without rows. The names stand in `line`, if they stand in the file.
     pub(super) fn new(
         path: &'p Path,
         names: Vec<String>,
@@ -32,7 +32,7 @@ impl<'p> Columns<'p> {
             ..TableError::in_file(path, message, help)
         })?;
         let columns = vec![Vec::new(); names.len()];
-        let table = Table { names, columns };
+        let table = NumberTable { names, columns };
         Ok(Self { path, table })
     }
 
@@ -91,7 +91,7 @@ impl<'p> Columns<'p> {
     }
 
     /// The table.
-    pub(super) fn finish(self) -> Result<Table, TableError> {
+    pub(super) fn finish(self) -> Result<NumberTable, TableError> {
         match self.table.rows() {
             0 => Err(no_rows(self.path)),
             _ => Ok(self.table),
@@ -137,14 +137,14 @@ pub(super) fn given_names(names: &[String], width: usize) -> Result<Vec<String>,
     Err(match names.len() {
         0 => format!("the file has no names for its {columns}"),
         given => format!(
-            "the file has {columns}, but `names` lists {}",
+            "the file has {columns}, but `header` lists {}",
             count(given, "name")
         ),
     })
 }
 
 /// What to do about names that are missing.
-pub(super) const NAMES_NEEDED: &str = "list one name for each column in `names`";
+pub(super) const NAMES_NEEDED: &str = "list one name for each column in `header`";
 
 /// Checks that every name means one column.
 pub(super) fn check_names(names: &[String]) -> Result<(), (String, &'static str)> {

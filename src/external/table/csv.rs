@@ -1,15 +1,15 @@
 //! Rows whose entries commas separate.
 
-use super::Table;
+use super::NumberTable;
 use super::bytes::line_after;
-use super::columns::{Columns, NAMES_NEEDED, RowPlace, given_names, number};
+use super::columns::{NAMES_NEEDED, RowPlace, RowReader, given_names, number};
 use super::error::{TableError, quote};
 use csv::{ReaderBuilder, StringRecord, Trim};
 use std::io::Read;
 use std::path::Path;
 
 /// Reads a table.
-pub(super) fn read(path: &Path, text: &str, names: &[String]) -> Result<Table, TableError> {
+pub(super) fn read(path: &Path, text: &str, names: &[String]) -> Result<NumberTable, TableError> {
     let mut reader = ReaderBuilder::new()
         .has_headers(false)
         .flexible(true)
@@ -18,7 +18,7 @@ pub(super) fn read(path: &Path, text: &str, names: &[String]) -> Result<Table, T
         // A comment without a line end would be an entry.
         .from_reader(text.as_bytes().chain(&b"\n"[..]));
     let mut record = StringRecord::new();
-    let mut columns: Option<Columns<'_>> = None;
+    let mut columns: Option<RowReader<'_>> = None;
     loop {
         let start = reader.position().byte() as usize;
         let more = reader.read_record(&mut record).map_err(|error| {
@@ -69,7 +69,7 @@ fn header<'p>(
     text: &str,
     record: &StringRecord,
     names: &[String],
-) -> Result<(Columns<'p>, bool), TableError> {
+) -> Result<(RowReader<'p>, bool), TableError> {
     let line = line_of(text, 0);
     let mut filled = record.iter().filter(|entry| !entry.is_empty()).peekable();
     if filled.peek().is_some() && filled.all(|entry| number(entry).is_some()) {
@@ -79,7 +79,7 @@ fn header<'p>(
             let help = format!("write a line of names before this one, or {NAMES_NEEDED}");
             TableError::in_line(path, line, message, help)
         })?;
-        return Ok((Columns::new(path, names, None)?, true));
+        return Ok((RowReader::new(path, names, None)?, true));
     }
     let names: Vec<String> = record.iter().map(unquoted).collect();
     if let [name] = &names[..]
@@ -93,7 +93,7 @@ fn header<'p>(
         };
         return Err(TableError::in_line(path, line, message, help));
     }
-    Ok((Columns::new(path, names, Some(line))?, false))
+    Ok((RowReader::new(path, names, Some(line))?, false))
 }
 
 /// The names in the last comment at the start of a text, where `numpy.savetxt` writes them, if they

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 /// Why a file cannot be read as a table.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{}{}: {message}; {help}", path.display(), Place(*line))]
+#[error("{}{}: {message}; {help}", path.display(), LinePlace(*line))]
 pub struct TableError {
     /// The file.
     pub path: PathBuf,
@@ -47,9 +47,9 @@ impl TableError {
 }
 
 /// The line behind the path of a file.
-struct Place(Option<u64>);
+struct LinePlace(Option<u64>);
 
-impl Display for Place {
+impl Display for LinePlace {
     fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
         match self.0 {
             Some(line) => write!(formatter, ":{line}"),
@@ -73,7 +73,7 @@ pub(super) fn quote(text: &str) -> String {
 const MOST_NAMES: usize = 20;
 
 /// Names as a list, fit for a message.
-pub(super) fn list<S: AsRef<str>>(names: &[S]) -> String {
+pub(in crate::external) fn list<S: AsRef<str>>(names: &[S]) -> String {
     let shown: Vec<_> = names
         .iter()
         .take(MOST_NAMES)

@@ -16,14 +16,15 @@ mod thermo;
 mod zip;
 
 pub use error::TableError;
+pub(in crate::external) use error::list;
 
 use crate::scene::TableFormat;
 use std::path::Path;
 
-/// Columns of numbers that a program left behind: one at least, all of equal length, with a row at
+/// RowReader of numbers that a program left behind: one at least, all of equal length, with a row at
 /// least.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Table {
+pub struct NumberTable {
     /// The name of each column. No two are equal, except that a CSV file may leave out the names of
     /// columns such as the row numbers that pandas writes; these are empty.
     pub names: Vec<String>,
@@ -31,7 +32,7 @@ pub struct Table {
     pub columns: Vec<Vec<f64>>,
 }
 
-impl Table {
+impl NumberTable {
     /// The numbers of the column of that name.
     pub fn column(&self, name: &str) -> Option<&[f64]> {
         let index = self.names.iter().position(|known| known == name)?;
@@ -54,7 +55,7 @@ pub fn read(
     format: TableFormat,
     names: &[String],
     most_bytes: u64,
-) -> Result<Table, TableError> {
+) -> Result<NumberTable, TableError> {
     let bytes = bytes::read(path, most_bytes)?;
     match format {
         TableFormat::Csv => csv::read(path, bytes::text(path, &bytes)?, names),

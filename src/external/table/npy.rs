@@ -1,6 +1,6 @@
 //! Arrays of NumPy (`.npy`).
 
-use super::Table;
+use super::NumberTable;
 use super::columns::{NAMES_NEEDED, check_names, given_names, no_rows};
 use super::error::{TableError, quote};
 use ndarray_npy::npy::header::Header;
@@ -24,7 +24,7 @@ pub(super) struct Array {
 }
 
 /// Reads the columns of one array.
-pub(super) fn read(path: &Path, bytes: &[u8], names: &[String]) -> Result<Table, TableError> {
+pub(super) fn read(path: &Path, bytes: &[u8], names: &[String]) -> Result<NumberTable, TableError> {
     let array = decode(bytes).map_err(|(message, help)| {
         TableError::in_file(path, format!("the array is wrong: {message}"), help)
     })?;
@@ -48,7 +48,7 @@ pub(super) fn read(path: &Path, bytes: &[u8], names: &[String]) -> Result<Table,
     let columns = (0..width)
         .map(|column| array.column(column, rows, width))
         .collect();
-    Ok(Table { names, columns })
+    Ok(NumberTable { names, columns })
 }
 
 impl Array {

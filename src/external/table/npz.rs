@@ -1,6 +1,6 @@
 //! Archives of arrays of NumPy (`.npz`).
 
-use super::Table;
+use super::NumberTable;
 use super::columns::{check_names, no_rows};
 use super::error::{TableError, quote};
 use super::npy;
@@ -13,9 +13,9 @@ pub(super) fn is_archive(bytes: &[u8]) -> bool {
 }
 
 /// Reads the arrays of one dimension as columns. Others belong to no table.
-pub(super) fn read(path: &Path, bytes: &[u8], most_bytes: u64) -> Result<Table, TableError> {
+pub(super) fn read(path: &Path, bytes: &[u8], most_bytes: u64) -> Result<NumberTable, TableError> {
     let wrong = |(message, help)| TableError::in_file(path, message, help);
-    let mut table = Table {
+    let mut table = NumberTable {
         names: Vec::new(),
         columns: Vec::new(),
     };

@@ -1,8 +1,8 @@
 //! Rows whose entries spaces or tabs separate.
 
-use super::Table;
+use super::NumberTable;
 use super::bytes::{Line, lines};
-use super::columns::{Columns, NAMES_NEEDED, RowPlace, given_names, no_rows, number};
+use super::columns::{NAMES_NEEDED, RowPlace, RowReader, given_names, no_rows, number};
 use super::error::{TableError, count};
 use std::path::Path;
 
@@ -13,9 +13,9 @@ struct NamesInLine<'t> {
 }
 
 /// Reads a table.
-pub(super) fn read(path: &Path, text: &str, names: &[String]) -> Result<Table, TableError> {
+pub(super) fn read(path: &Path, text: &str, names: &[String]) -> Result<NumberTable, TableError> {
     let (mut comment, mut header) = (None, None);
-    let mut columns: Option<Columns<'_>> = None;
+    let mut columns: Option<RowReader<'_>> = None;
     for line in lines(text) {
         let (content, remark) = match line.text.split_once('#') {
             Some((content, remark)) => (content, Some(remark)),
@@ -75,11 +75,11 @@ fn first_columns<'p>(
     names: &[String],
     row: Line<'_>,
     width: usize,
-) -> Result<Columns<'p>, TableError> {
+) -> Result<RowReader<'p>, TableError> {
     let comment = comment.filter(|it| it.names.len() == width);
     if let Some(NamesInLine { names, line }) = header.or(comment) {
         let owned = names.iter().map(|name| (*name).to_owned()).collect();
-        let columns = Columns::new(path, owned, Some(*line))?;
+        let columns = RowReader::new(path, owned, Some(*line))?;
         let is_cut = !row.is_ended && width < names.len();
         if names.len() != width && !is_cut {
             let (entries, written) = (count(width, "entry"), count(names.len(), "name"));
@@ -94,5 +94,5 @@ fn first_columns<'p>(
         let help = format!("write them before the first row as `# time energy`, or {NAMES_NEEDED}");
         TableError::in_line(path, row.number, message, help)
     })?;
-    Columns::new(path, names, None)
+    RowReader::new(path, names, None)
 }

@@ -1,8 +1,8 @@
 //! Logs of LAMMPS: the tables of all their runs.
 
-use super::Table;
+use super::NumberTable;
 use super::bytes::{Line, lines};
-use super::columns::{Columns, number};
+use super::columns::{RowReader, number};
 use super::error::{TableError, list, quote};
 use std::path::Path;
 
@@ -33,13 +33,13 @@ struct Log<'p> {
     path: &'p Path,
     part: Part,
     /// The columns, and the index of the one with the steps.
-    columns: Option<(Columns<'p>, Option<usize>)>,
+    columns: Option<(RowReader<'p>, Option<usize>)>,
     /// Number of runs whose names were read.
     runs: usize,
 }
 
 /// Reads the tables of all runs, one after the other.
-pub(super) fn read(path: &Path, text: &str) -> Result<Table, TableError> {
+pub(super) fn read(path: &Path, text: &str) -> Result<NumberTable, TableError> {
     let mut log = Log {
         path,
         part: Part::Between,
@@ -136,7 +136,7 @@ impl Log<'_> {
             Some(_) => Ok(()),
             None => {
                 let step = names.iter().position(|name| name == STEP);
-                let columns = Columns::new(self.path, names, Some(line.number))?;
+                let columns = RowReader::new(self.path, names, Some(line.number))?;
                 self.columns = Some((columns, step));
                 Ok(())
             }

@@ -49,12 +49,12 @@ impl<'run> Frames<'run> {
         &self.time[self.window.clone()]
     }
 
-    /// The values of a formula, one per frame; none if one of them is not finite or there are no
-    /// frames.
+    /// The values of a formula, one per frame; none if one of them is not a number or there are no
+    /// frames. What has become too large for a number is infinite.
     pub(super) fn series(&self, formula: &Formula<ColumnPlace>) -> Option<Vec<f64>> {
         let frames = self.window.clone();
         let value = |frame| formula.value(&self.keys, &|column| self.at(*column, frame));
-        let value = |frame| Some(value(frame)).filter(|value| value.is_finite());
+        let value = |frame| Some(value(frame)).filter(|value| !value.is_nan());
         let series: Vec<f64> = frames.map(value).collect::<Option<_>>()?;
         (!series.is_empty()).then_some(series)
     }

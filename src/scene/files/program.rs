@@ -54,7 +54,10 @@ fn read_folder(folder: &Path, head: &str, texts: &mut Vec<TemplateText>) -> Resu
     entries.sort_by_key(fs::DirEntry::file_name);
     for entry in entries {
         let (path, name) = (entry.path(), entry.file_name());
-        let name = name.to_string_lossy();
+        let Some(name) = name.to_str() else {
+            let message = format!("{}: the name is no text in UTF-8", path.display());
+            return Err(Problem::new("", message).help("rename the file"));
+        };
         if name.starts_with('.') || name == "__pycache__" {
             continue;
         }
@@ -69,7 +72,12 @@ fn read_folder(folder: &Path, head: &str, texts: &mut Vec<TemplateText>) -> Resu
 fn read_file(path: &Path, name: &str, texts: &mut Vec<TemplateText>) -> Result<(), Problem> {
     let large = "name large files of data by their full path in a command or template instead";
     let refuse = |error| Problem::new("", FileError::reading(path, error).to_string());
-    let size = fs::metadata(path).map_err(refuse)?.len();
+    let metadata = fs::metadata(path).map_err(refuse)?;
+    if !metadata.is_file() {
+        let message = format!("{} is no file", path.display());
+        return Err(Problem::new("", message).help("name files of text, or folders of them"));
+    }
+    let size = metadata.len();
     if size > LARGEST {
         let message = format!("{} has {size} bytes", path.display());
         return Err(Problem::new("", message).help(large));

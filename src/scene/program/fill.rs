@@ -1,9 +1,10 @@
 //! A program with the values of one run in the place of its marks.
 
-use super::marks::{Marks, Piece};
+use super::marks::{Marks, TextPiece};
 use super::{ExternalProgram, TemplateText};
 use crate::scene::Scene;
 use serde_json::Value;
+use std::path::{Component, Path};
 
 /// The name of the seed of a run in marks.
 const SEED: &str = "seed";
@@ -66,16 +67,21 @@ impl Scene {
         u64::from_le_bytes(bytes) % MOST_SEED + 1
     }
 
+    /// A text with values in the place of its marks.
+    pub(in crate::scene) fn filled_text(&self, text: &str) -> String {
+        self.fill(text, self.small_seed())
+    }
+
     fn fill(&self, text: &str, small_seed: u64) -> String {
         let mut filled = String::with_capacity(text.len());
         for piece in Marks::of(text) {
             match piece {
-                Piece::Plain(plain) => filled += plain,
-                Piece::Mark(SEED, _) => filled += &self.seed.to_string(),
-                Piece::Mark(SMALL_SEED, _) => filled += &small_seed.to_string(),
-                Piece::Mark(name, _) => filled += &self.parameter(name).unwrap_or_default(),
+                TextPiece::Plain(plain) => filled += plain,
+                TextPiece::Mark(SEED, _) => filled += &self.seed.to_string(),
+                TextPiece::Mark(SMALL_SEED, _) => filled += &small_seed.to_string(),
+                TextPiece::Mark(name, _) => filled += &self.parameter(name).unwrap_or_default(),
                 // A scene without problems has none.
-                Piece::Open(place) => filled += &text[place],
+                TextPiece::Open(place) => filled += &text[place],
             }
         }
         filled
@@ -91,6 +97,15 @@ impl Scene {
 }
 
 impl ExternalProgram {
+    /// Whether a name is the path of a file in the folder of a run, and not of one that this program
+    /// writes there for itself.
+    pub(crate) fn is_inside(name: &str) -> bool {
+        let mut parts = Path::new(name).components();
+        let is_plain = parts.all(|it| matches!(it, Component::Normal(_)));
+        let ends_well = !name.is_empty() && !name.ends_with('/');
+        is_plain && ends_well && !name.contains(['\\', '\0']) && !name.starts_with("phase-")
+    }
+
     /// The names that marks may have, besides parameters.
     pub(in crate::scene) const NAMES: [&str; 2] = [SEED, SMALL_SEED];
 }

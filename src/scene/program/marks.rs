@@ -16,7 +16,7 @@ pub(in crate::scene) struct Marks<'a> {
 
 /// A piece of a text.
 #[derive(Debug, PartialEq)]
-pub(in crate::scene) enum Piece<'a> {
+pub(in crate::scene) enum TextPiece<'a> {
     /// As it is written.
     Plain(&'a str),
     /// A mark with this name, at this place (bytes).
@@ -25,7 +25,7 @@ pub(in crate::scene) enum Piece<'a> {
     Open(Range<usize>),
 }
 
-impl Piece<'_> {
+impl TextPiece<'_> {
     /// Whether a value takes its place.
     pub(in crate::scene) fn is_mark(&self) -> bool {
         !matches!(self, Self::Plain(_))
@@ -40,37 +40,37 @@ impl<'a> Marks<'a> {
 }
 
 impl<'a> Iterator for Marks<'a> {
-    type Item = Piece<'a>;
+    type Item = TextPiece<'a>;
 
-    fn next(&mut self) -> Option<Piece<'a>> {
+    fn next(&mut self) -> Option<TextPiece<'a>> {
         let rest = &self.text[self.at..];
         let Some(place) = rest.find(OPEN) else {
             self.at = self.text.len();
-            return (!rest.is_empty()).then_some(Piece::Plain(rest));
+            return (!rest.is_empty()).then_some(TextPiece::Plain(rest));
         };
         if rest[..place].ends_with('@') {
             // The sign itself, without the one that says so.
             if place > 1 {
                 self.at += place - 1;
-                return Some(Piece::Plain(&rest[..place - 1]));
+                return Some(TextPiece::Plain(&rest[..place - 1]));
             }
             self.at += place + OPEN.len();
-            return Some(Piece::Plain(OPEN));
+            return Some(TextPiece::Plain(OPEN));
         }
         if place > 0 {
             self.at += place;
-            return Some(Piece::Plain(&rest[..place]));
+            return Some(TextPiece::Plain(&rest[..place]));
         }
         let inside = &rest[OPEN.len()..];
         let line = inside.find('\n').unwrap_or(inside.len());
         let Some(end) = inside[..line].find('}') else {
             let place = self.at..self.at + OPEN.len() + line;
             self.at = place.end;
-            return Some(Piece::Open(place));
+            return Some(TextPiece::Open(place));
         };
         let place = self.at..self.at + OPEN.len() + end + 1;
         self.at = place.end;
-        Some(Piece::Mark(inside[..end].trim(), place))
+        Some(TextPiece::Mark(inside[..end].trim(), place))
     }
 }
 
@@ -86,18 +86,24 @@ mod tests {
         assert_eq!(
             pieces("a @{b} @@{c} @{ d }"),
             [
-                Piece::Plain("a "),
-                Piece::Mark("b", 2..6),
-                Piece::Plain(" "),
-                Piece::Plain("@{"),
-                Piece::Plain("c} "),
-                Piece::Mark("d", 13..19),
+                TextPiece::Plain("a "),
+                TextPiece::Mark("b", 2..6),
+                TextPiece::Plain(" "),
+                TextPiece::Plain("@{"),
+                TextPiece::Plain("c} "),
+                TextPiece::Mark("d", 13..19),
             ]
         );
-        assert_eq!(pieces("@@{x"), [Piece::Plain("@{"), Piece::Plain("x")]);
-        assert_eq!(pieces("@{x\n}"), [Piece::Open(0..3), Piece::Plain("\n}")]);
+        assert_eq!(
+            pieces("@@{x"),
+            [TextPiece::Plain("@{"), TextPiece::Plain("x")]
+        );
+        assert_eq!(
+            pieces("@{x\n}"),
+            [TextPiece::Open(0..3), TextPiece::Plain("\n}")]
+        );
         let others = "${x} @decorator {\"a\": 1} f'{x}' %(x)s @ {x}";
-        assert_eq!(pieces(others), [Piece::Plain(others)]);
+        assert_eq!(pieces(others), [TextPiece::Plain(others)]);
     }
 
     proptest! {
@@ -107,9 +113,9 @@ mod tests {
             let mut joined = String::new();
             for piece in Marks::of(&text) {
                 match piece {
-                    Piece::Plain("@{") => joined += "@@{",
-                    Piece::Plain(plain) => joined += plain,
-                    Piece::Mark(_, place) | Piece::Open(place) => joined += &text[place],
+                    TextPiece::Plain("@{") => joined += "@@{",
+                    TextPiece::Plain(plain) => joined += plain,
+                    TextPiece::Mark(_, place) | TextPiece::Open(place) => joined += &text[place],
                 }
             }
             prop_assert_eq!(joined, text);

@@ -7,7 +7,7 @@ mod marks;
 
 pub use columns::{DescribedColumn, ProgramColumn, ProgramTable, TableFormat};
 pub use fill::FilledProgram;
-pub(super) use marks::{Marks, Piece};
+pub(super) use marks::{Marks, TextPiece};
 
 use super::{Scene, Start, is_default};
 use crate::document::unit;
@@ -17,7 +17,7 @@ use serde_json::Value;
 use std::collections::BTreeMap;
 
 /// Numbers and texts that a program is given, by their names.
-pub type Parameters = BTreeMap<String, Value>;
+pub type ProgramParameters = BTreeMap<String, Value>;
 
 /// Another program in place of a model of this one. It runs in a folder of its own, with files in
 /// which marks such as `@{omega}` stand for the values of `[parameters]`; what it measured is read
@@ -151,6 +151,18 @@ impl ExternalProgram {
     /// All its columns, with the unit of each.
     pub fn columns(&self) -> impl Iterator<Item = &ProgramColumn> {
         self.read.iter().flat_map(|table| &table.columns)
+    }
+
+    /// The same without what changes no result: units, limits, and what is kept.
+    pub(crate) fn without_limits(self) -> Self {
+        Self {
+            units: BTreeMap::new(),
+            retries: 0,
+            time_limit: None,
+            most_bytes: MOST_BYTES,
+            keep: Keep::All,
+            ..self
+        }
     }
 
     /// The programs that it starts.

@@ -1,11 +1,10 @@
 //! What must be right in a scene of another program.
 
-use crate::document::{Problem, one_of, suggest};
+use crate::document::{Problem, one_of, shown, suggest};
 use crate::rule::Unit;
-use crate::scene::program::{Marks, Piece, absent};
+use crate::scene::program::{Marks, TextPiece, absent};
 use crate::scene::{ExternalProgram, ProgramTable, Scene, TemplateFile};
 use serde_json::Value;
-use std::path::{Component, Path};
 
 /// Most columns that records keep.
 const MOST_COLUMNS: usize = 200;
@@ -25,6 +24,15 @@ impl Scene {
         self.check_files(program, &mut problems);
         self.check_tables(program, &mut problems);
         self.check_units(program, &mut problems);
+        if let Some(code) = program
+            .exit_codes
+            .iter()
+            .find(|it| !(0..=255).contains(*it))
+        {
+            let message = format!("{code} is no exit code");
+            let problem = Problem::new("program.exit_codes", message);
+            problems.push(problem.help("use numbers from 0 to 255"));
+        }
         if program.exit_codes.is_empty() {
             let problem = Problem::new("program.exit_codes", "no exit code counts as success");
             problems.push(problem.help("write `exit_codes = [0]`, or leave it out"));
@@ -99,18 +107,19 @@ impl Scene {
             );
             problems.push(Problem::new("program.files", message).help(help));
         }
-        let mut names: Vec<&str> = Vec::new();
+        let mut names: Vec<String> = Vec::new();
         for (place, file) in program.files.iter().enumerate() {
             let TemplateFile::Text(file) = file else {
                 continue;
             };
             let path = format!("program.files[{place}]");
             self.check_place(&file.name, &format!("{path}.name"), problems);
-            if names.contains(&file.name.as_str()) {
-                let message = format!("two files have the name `{}`", file.name);
+            let name = self.filled_text(&file.name);
+            if names.contains(&name) {
+                let message = format!("two files have the name `{}`", shown(&name));
                 problems.push(Problem::new(&path, message).help("rename one of them"));
             }
-            names.push(&file.name);
+            names.push(name);
             let shown = format!("{}: ", file.name);
             self.check_marks(&file.text, &format!("{path}.text"), &shown, problems);
         }
@@ -180,11 +189,12 @@ impl Scene {
     /// A file of a run lies in its folder.
     fn check_place(&self, name: &str, path: &str, problems: &mut Vec<Problem>) {
         self.check_marks(name, path, "", problems);
-        let mut parts = Path::new(name).components();
-        let is_inside = !name.is_empty() && parts.all(|it| matches!(it, Component::Normal(_)));
-        if !is_inside || name.contains('\\') {
-            let message = format!("`{name}` is no file in the folder of a run");
-            let help = "write its path in this folder, without `..` and without a leading `/`";
+        // Marks may lead elsewhere.
+        let name = self.filled_text(name);
+        if !ExternalProgram::is_inside(&name) {
+            let message = format!("`{}` is no file in the folder of a run", shown(&name));
+            let help = "write its path in this folder, without `..`, without a leading `/`, and not \
+                        `phase-...`, as files of this program are called there";
             problems.push(Problem::new(path, message).help(help));
         }
     }
@@ -193,9 +203,9 @@ impl Scene {
     fn check_marks(&self, text: &str, path: &str, shown: &str, problems: &mut Vec<Problem>) {
         for piece in Marks::of(text) {
             let (place, message, help) = match piece {
-                Piece::Plain(_) => continue,
-                Piece::Mark(name, _) if self.is_known(name) => continue,
-                Piece::Mark(name, place) => {
+                TextPiece::Plain(_) => continue,
+                TextPiece::Mark(name, _) if self.is_known(name) => continue,
+                TextPiece::Mark(name, place) => {
                     let known = self.parameters.keys().map(String::as_str);
                     let known: Vec<&str> = known.chain(ExternalProgram::NAMES).collect();
                     let help = match suggest(name, known.iter().copied()) {
@@ -210,7 +220,7 @@ impl Scene {
                     );
                     (place, message, help)
                 }
-                Piece::Open(place) => {
+                TextPiece::Open(place) => {
                     let help = "write `}` behind its name, or `@@{` for the signs themselves";
                     (place, "the mark has no end".to_owned(), help.to_owned())
                 }

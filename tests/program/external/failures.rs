@@ -95,7 +95,9 @@ fn a_program_that_is_not_there_is_named() {
     place
         .phase(&["sweep", "model.toml", "--allow-program"])
         .code(1)
-        .complains("cannot start `no-such-program`: there is no such program; install it");
+        .complains(
+            "cannot start `no-such-program`: there is no such program, or no interpreter for it",
+        );
 }
 
 #[test]

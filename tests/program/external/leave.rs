@@ -81,6 +81,18 @@ fn the_configuration_of_the_user_lists_files_and_folders() {
         assert!(said.contains(expected), "{text}: {said}");
     }
     let file = folder.join("model.toml");
+    // A results folder may come from anywhere, so that it is no file of the list.
+    place
+        .phase(&["sweep", "model.toml", "--allow-program"])
+        .code(0);
+    let mut again = place.command(&["run", "--from", "results/model", "--point", "x=1"]);
+    again.env("XDG_CONFIG_HOME", place.path("home"));
+    std::fs::write(
+        place.path("home/phase/config.toml"),
+        format!("programs = [{folder:?}]"),
+    )
+    .unwrap();
+    assert_eq!(again.output().unwrap().status.code(), Some(2));
     for listed in [folder, file] {
         std::fs::remove_dir_all(place.path("results")).ok();
         let (code, said) = with(Some(&format!("programs = [{listed:?}]")));

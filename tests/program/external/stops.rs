@@ -5,6 +5,7 @@ use super::{MODEL, place_of};
 use crate::support::{end, signal, wait_until};
 use std::process::Command;
 
+/// Whether a process is there and no zombie.
 fn is_alive(process: &str) -> bool {
     let answer = Command::new("kill").args(["-0", process.trim()]).output();
     answer.unwrap().status.success()
@@ -63,6 +64,95 @@ fn a_run_goes_on_from_what_its_program_left() {
         "results/model/records/{name}.run/phase-output.txt"
     ));
     assert_eq!(said, "went on from half\n");
+}
+
+/// A run goes on from its own folder only: neither another run nor one that has ended, and `phase
+/// run` only if it is asked to.
+#[test]
+fn nothing_goes_on_from_another_run() {
+    let more = "resume = { file = \"out.csv\", commands = [[\"false\"]] }";
+    let place = place_of(MODEL, "[1.0]", more);
+    let text = place.read("model.toml");
+    let scene = text[..text.find("[[axis]]").unwrap()].replace("scene.", "");
+    place.write("one.toml", &scene);
+    let run = |more: &[&str]| {
+        let first = ["run", "one.toml", "--allow-program", "--out", "one.h5"];
+        place.phase(&[&first[..], more].concat()).code(0)
+    };
+    run(&[]);
+    run(&["--set", "parameters.x=7"]);
+    assert_eq!(place.read("one.run/out.csv"), "t,y\n0,0\n1.5,7\n");
+    run(&["--set", "parameters.x=7", "--resume"]);
+    let sweep = &["sweep", "model.toml", "--allow-program"];
+    place.phase(sweep).code(0);
+    place.phase(&[&sweep[..], &["--force"]].concat()).code(0);
+}
+
+/// Symptom: a program that had outlived a killed `phase` wrote to the folder of its successor.
+#[test]
+fn a_program_that_outlived_its_phase_is_not_joined() {
+    let processes = tempfile::tempdir().unwrap();
+    let (file, go) = (
+        processes.path().join("process"),
+        processes.path().join("go"),
+    );
+    let script = format!(
+        "[ -e {1} ] || {{ echo $$ > {0}.part; mv {0}.part {0}; sleep 60; }}\n{MODEL}",
+        file.display(),
+        go.display()
+    );
+    let place = place_of(&script, "[1.0]", "");
+    let sweep = &["sweep", "model.toml", "--allow-program"];
+    let child = place.start(sweep);
+    wait_until(|| file.exists());
+    signal(&child, "KILL");
+    end(child);
+    place
+        .phase(sweep)
+        .code(1)
+        .complains("a program that an earlier `phase` started still runs here");
+    let process = std::fs::read_to_string(&file).unwrap();
+    let group = format!("-{}", process.trim());
+    Command::new("kill")
+        .args(["-KILL", "--", &group])
+        .status()
+        .unwrap();
+    wait_until(|| !is_alive(&process));
+    std::fs::write(&go, "").unwrap();
+    place.phase(sweep).code(0).says("1 run labelled");
+}
+
+#[test]
+fn another_ctrl_c_ends_programs_that_do_not_listen() {
+    let processes = tempfile::tempdir().unwrap();
+    let file = processes.path().join("process");
+    let script = format!(
+        "trap '' TERM; echo $$ > {0}.part; mv {0}.part {0}; while :; do sleep 1; done",
+        file.display()
+    );
+    let place = place_of(&script, "[1.0]", "");
+    let child = place.start(&["sweep", "model.toml", "--allow-program"]);
+    wait_until(|| file.exists());
+    let process = std::fs::read_to_string(&file).unwrap();
+    signal(&child, "INT");
+    std::thread::sleep(std::time::Duration::from_millis(300));
+    signal(&child, "INT");
+    end(child).code(130);
+    wait_until(|| !is_alive(&process));
+}
+
+/// What a program started in the background ends with it.
+#[test]
+fn what_a_program_started_ends_with_it() {
+    let processes = tempfile::tempdir().unwrap();
+    let file = processes.path().join("process");
+    let script = format!("sleep 60 & echo $! > {}\n{MODEL}", file.display());
+    let place = place_of(&script, "[1.0]", "");
+    place
+        .phase(&["sweep", "model.toml", "--allow-program"])
+        .code(0);
+    let process = std::fs::read_to_string(&file).unwrap();
+    wait_until(|| !is_alive(&process));
 }
 
 /// A run that failed begins anew, although its program left something to go on from.

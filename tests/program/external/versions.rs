@@ -60,3 +60,25 @@ fn identities_are_of_what_is_measured() {
     assert_ne!(ids(MODEL, "exit_codes = [0, 1]"), base);
     assert_ne!(ids(MODEL, "version = [\"true\"]"), base);
 }
+
+/// Symptom: an edited file with other thresholds was refused, as one of other runs, because it had
+/// no version yet; and a longer time limit made all records those of another run.
+#[test]
+fn thresholds_and_limits_change_without_new_runs() {
+    let more = "version = [\"echo\", \"1\"]\ntime_limit = 5.0";
+    let place = place_of(MODEL, "[1.0, 3.0]", more);
+    let sweep = &["sweep", "model.toml", "--allow-program"];
+    place.phase(sweep).code(0).says("2 run now");
+    let text = place.read("model.toml").replace("2[m]", "0.5[m]");
+    place.write("model.toml", &text);
+    place
+        .phase(&["classify", "results/model", "--sweep", "model.toml"])
+        .code(0)
+        .says("far               2  100 %");
+    let text = text.replace(
+        "time_limit = 5.0",
+        "time_limit = 9.0\nretries = 1\nkeep = \"failed\"",
+    );
+    place.write("model.toml", &text);
+    place.phase(sweep).code(0).says("2 done before");
+}

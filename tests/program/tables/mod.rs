@@ -6,7 +6,7 @@ mod good;
 mod lammps;
 mod random;
 
-use phase::external::table::{Table, TableError, read};
+use phase::external::table::{NumberTable, TableError, read};
 use phase::scene::TableFormat;
 use std::path::Path;
 
@@ -34,7 +34,7 @@ fn read_bytes(
     format: TableFormat,
     names: &[&str],
     most: u64,
-) -> Result<Table, TableError> {
+) -> Result<NumberTable, TableError> {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join(name);
     std::fs::write(&path, bytes).unwrap();

@@ -4,6 +4,7 @@ use super::describe::line;
 use crate::cli::console::Console;
 use crate::cli::exit::Failure;
 use crate::cli::{folders, format, programs};
+use phase::document::shown;
 use phase::grid::describe;
 use phase::scene::Scene;
 use phase::sweep::{Folder, Job, Plan, Sweep};
@@ -16,7 +17,7 @@ pub(super) fn runs_all(sweep: &Sweep) -> bool {
 
 /// Prints the commands of the first run of each scene, its files, and what is read.
 pub(super) fn describe_programs(sweep: &Sweep, jobs: &[Job], console: &Console) {
-    let mut shown: Vec<String> = Vec::new();
+    let mut kinds: Vec<String> = Vec::new();
     for job in jobs {
         let scene = job.scene();
         let (Some(program), Some(filled)) = (&scene.program, scene.filled_program()) else {
@@ -24,10 +25,10 @@ pub(super) fn describe_programs(sweep: &Sweep, jobs: &[Job], console: &Console) 
         };
         let start = sweep.start_of(&job.values);
         let kind = format!("{:?}", start.program);
-        if shown.contains(&kind) {
+        if kinds.contains(&kind) {
             continue;
         }
-        shown.push(kind);
+        kinds.push(kind);
         let at = describe(&sweep.axes, &job.values, job.seed);
         console.result(line(
             "program",
@@ -38,11 +39,12 @@ pub(super) fn describe_programs(sweep: &Sweep, jobs: &[Job], console: &Console) 
             console.result(line("", words.join(" ")));
         }
         if let Some((file, commands)) = &filled.resume {
-            let commands: Vec<String> = commands.iter().map(|it| it.join(" ")).collect();
-            let text = format!("from {file}: {}", commands.join("; "));
+            let words = |words: &Vec<String>| words.iter().map(|it| quoted(it)).collect::<Vec<_>>();
+            let commands: Vec<String> = commands.iter().map(|it| words(it).join(" ")).collect();
+            let text = format!("from {}: {}", shown(file), commands.join("; "));
             console.result(line("goes on", text));
         }
-        let files: Vec<&str> = filled.files.iter().map(|it| it.name.as_str()).collect();
+        let files: Vec<String> = filled.files.iter().map(|it| shown(&it.name)).collect();
         if !files.is_empty() {
             console.result(line("files", files.join(", ")));
         }
@@ -54,7 +56,7 @@ pub(super) fn describe_programs(sweep: &Sweep, jobs: &[Job], console: &Console) 
             let columns = table.columns.iter();
             let columns = columns.map(|it| format!("{}{}", it.name(), unit(it.unit())));
             let columns: Vec<String> = columns.collect();
-            let text = format!("{file}: {}", columns.join(", "));
+            let text = format!("{}: {}", shown(file), columns.join(", "));
             console.result(line("reads", text));
         }
     }
@@ -65,7 +67,7 @@ fn quoted(word: &str) -> String {
     let is_plain = |it: char| it.is_ascii_alphanumeric() || "-_./=:,+@%".contains(it);
     match !word.is_empty() && word.chars().all(is_plain) {
         true => word.to_owned(),
-        false => format!("'{}'", word.replace('\'', "'\\''")),
+        false => format!("'{}'", shown(word).replace('\'', "'\\''")),
     }
 }
 

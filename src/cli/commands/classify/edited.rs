@@ -6,6 +6,7 @@ use crate::cli::exit::Failure;
 use crate::cli::folders::{self, Entry, Undone};
 use crate::cli::format;
 use crate::cli::labels::{Summary, labelling_of, write};
+use crate::cli::programs;
 use phase::store;
 use phase::sweep::{Access, Folder, Job, Labelling, Learnt, Sweep};
 use std::path::Path;
@@ -60,7 +61,8 @@ fn edit(
     edited: &Sweep,
     console: &Console,
 ) -> Result<ToLabel, Failure> {
-    let edited = refined_alike(edited, &sweep);
+    let mut edited = refined_alike(edited, &sweep);
+    programs::take_versions(&mut edited, folder);
     let keys = sweep.keys_of_other_runs(&edited);
     if !keys.is_empty() {
         return Err(Failure::refused(format_args!(

@@ -88,11 +88,18 @@ fn draw_both(
     let [first, second] = folders.map(|path| Folder::new(path).read_sweep());
     let (mut sweep, second) = (first?, second?);
     let scenes = [sweep.scene.clone(), second.scene];
-    let variants = folders.into_iter().zip(scenes).map(|(path, scene)| Variant {
-        name: path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned(),
-        scale: Vec::new(),
-        scene,
-    });
+    let variants = folders
+        .into_iter()
+        .zip(scenes)
+        .map(|(path, scene)| Variant {
+            name: path
+                .file_name()
+                .unwrap_or(path.as_os_str())
+                .to_string_lossy()
+                .into_owned(),
+            scale: Vec::new(),
+            scene,
+        });
     let variants: Vec<Variant> = variants.collect();
     let mut both = tables[0].clone();
     both.axes.push(VARIANT.to_owned());
@@ -107,7 +114,11 @@ fn draw_both(
     both.rows = rows.collect();
     sweep.axes.push(Axis::of_variants(variants));
     sweep.plot.panels = None;
-    let drawn = figures::drawn("phase", (&Folder::new(folders[0]), &sweep, &both), (&[], None))?;
+    let drawn = figures::drawn(
+        "phase",
+        (&Folder::new(folders[0]), &sweep, &both),
+        (&[], None),
+    )?;
     folders::make_for(figure)?;
     figures::write(&drawn, |end| figure.with_added_extension(end), console)
 }

@@ -23,7 +23,7 @@ pub(super) struct Answer<'a> {
     sphere_steps: u64,
     frames: usize,
     /// Time step (s), over the limit above which it is refused, and the name of that limit.
-    dt: f64,
+    dt: Option<f64>,
     dt_over_limit: Option<f64>,
     limit: Option<&'static str>,
     /// What happened once, and when (s), where spheres come or go.
@@ -61,7 +61,7 @@ impl<'a> Answer<'a> {
             cpu_seconds: record.cpu_seconds,
             sphere_steps: record.work,
             frames: observations.frames(),
-            dt: record.scene.time.dt,
+            dt: (!record.scene.is_external()).then_some(record.scene.time.dt),
             dt_over_limit: standing.map(|it| it.ratio),
             limit: standing.map(|it| it.limit.name),
             milestones: record.milestones.clone(),
@@ -134,7 +134,11 @@ pub(super) fn summary(record: &RunRecord, seconds: f64) -> String {
         text += &format!("\n  {unmet}");
     }
     if let Some(time) = observations.time.last() {
-        text += &format!("\nlast frame, at {}", format::time(*time));
+        text += &match record.scene.unit_of_time() {
+            "s" => format!("\nlast frame, at {}", format::time(*time)),
+            "1" => format!("\nlast frame, at {time:e}"),
+            unit => format!("\nlast frame, at {time:e} {unit}"),
+        };
     }
     for series in observations.scalars() {
         // Without spheres there are no means.

@@ -34,7 +34,7 @@ pub(super) fn run(
 ) -> Result<Option<Ran>, Failure> {
     let stop = interrupt::stop_on_signal(console)?;
     let begun = match scene.is_external() {
-        true => external::begin(scene, run_folder.clone()),
+        true => external::begin(scene, run_folder.clone(), resume),
         false => Run::new(scene),
     };
     let mut run = begun.map_err(Failure::failed)?;
@@ -90,6 +90,17 @@ pub(super) fn run(
         Ending::Lost(error) => Err(Failure::failed(error)),
         Ending::Failed(reason) => Err(Failure::failed(reason)),
         Ending::Interrupted | Ending::EarlierKept => {
+            if scene.is_external() {
+                console.note(
+                    match scene.program.as_ref().is_some_and(|it| it.resume.is_some()) {
+                        true => {
+                            "interrupted; the same command with --resume goes on from what it left"
+                        }
+                        false => "interrupted; the same command begins anew",
+                    },
+                );
+                return Ok(None);
+            }
             let frames = scene.time.frames();
             tell_of_interruption(&ending, (frame, frames), checkpoints, console);
             Ok(None)
@@ -125,6 +136,9 @@ fn begin(
     console: &Console,
 ) -> Result<bool, Failure> {
     let path = checkpoints.path().display();
+    if !run.can_be_saved() {
+        return Ok(false);
+    }
     if !resume {
         if checkpoints.path().exists() {
             console.note(format_args!(
