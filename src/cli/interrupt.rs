@@ -9,11 +9,17 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// Set by the first signal.
 static STOP: AtomicBool = AtomicBool::new(false);
 
+/// Whether signals are listened to: twice would take one signal for two.
+static LISTENS: AtomicBool = AtomicBool::new(false);
+
 /// From now on the first signal sets the flag that is returned; another Ctrl-C ends the program at
 /// once. Requests to end may come twice: Slurm sends one to all processes of a task, and the script
 /// of the task hands its own on. A signal that was ignored when the program started stays ignored:
 /// `nohup` ignores the hang-up, and a shell the Ctrl-C of what it runs in the background.
 pub(crate) fn stop_on_signal(console: &Console) -> Result<&'static AtomicBool, Failure> {
+    if LISTENS.swap(true, Ordering::Relaxed) {
+        return Ok(&STOP);
+    }
     let speaker = Console::new(console.is_quiet(), console.is_verbose(), false);
     let ignored = ignored_signals();
     let wanted = SIGNALS.iter().filter(|&&signal| !ignored.contains(signal));

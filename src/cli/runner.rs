@@ -46,7 +46,7 @@ impl Runner<'_> {
 
     /// Calls `act` with the pool that runs the jobs of a sweep.
     pub(super) fn with_pool<T>(&self, sweep: &Sweep, act: impl FnOnce(&Pool<'_>) -> T) -> T {
-        // Programs are started in folders of their own; who runs the sweep has asked whether they may.
+        // Programs start in folders of their own; who runs the sweep has asked whether they may.
         let begin = |job: &Job| {
             let scene = job.scene();
             match scene.is_external() {

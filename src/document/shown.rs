@@ -3,8 +3,8 @@
 /// Most characters of such a text.
 const MOST: usize = 200;
 
-/// A text that this program did not write, fit for a message or a terminal: what controls a terminal
-/// or turns the direction of writing is escaped, and a long text is cut.
+/// A text that this program did not write, fit for a message or a terminal: what controls a
+/// terminal or turns the direction of writing is escaped, and a long text is cut.
 pub fn shown(text: &str) -> String {
     let mut fit = String::new();
     for (place, sign) in text.chars().enumerate() {
@@ -24,7 +24,8 @@ fn is_hidden(sign: char) -> bool {
     sign.is_control()
         || matches!(sign,
             '\u{ad}' | '\u{61c}' | '\u{180e}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}'
-            | '\u{2060}'..='\u{206f}' | '\u{feff}' | '\u{fff9}'..='\u{fffb}' | '\u{e0000}'..='\u{e007f}')
+            | '\u{2060}'..='\u{206f}' | '\u{feff}' | '\u{fff9}'..='\u{fffb}'
+            | '\u{e0000}'..='\u{e007f}')
 }
 
 #[cfg(test)]

@@ -36,9 +36,9 @@ struct NoRunFolder {
     source: io::Error,
 }
 
-/// The run of a scene by its program, in that folder. The program starts when the run advances, and
-/// is ended when the run is dropped before. If it `may_go_on`, it goes on from what the same run left
-/// there that was stopped, and if the scene says how; else what is there is removed.
+/// The run of a scene by its program, in that folder. The program starts when the run advances,
+/// and is ended when the run is dropped before. If it `may_go_on` and the scene says how, it goes
+/// on from what the same run left there when it was stopped; else what is there is removed.
 ///
 /// # Errors
 /// If the scene has no program, or the folder cannot be made or is of something else.

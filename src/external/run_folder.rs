@@ -83,7 +83,7 @@ impl RunFolder {
     }
 
     fn write(&self, file: &TemplateText) -> io::Result<()> {
-        if !ExternalProgram::is_inside(&file.name) {
+        if !ExternalProgram::is_inside(&file.name) || ExternalProgram::is_reserved(&file.name) {
             return Err(io::Error::other(
                 "it would not lie in the folder of the run",
             ));
@@ -129,8 +129,8 @@ impl RunFolder {
         }
     }
 
-    /// Removes it after a run that ended well, if the scene says so. One that cannot be removed does
-    /// no harm.
+    /// Removes it after a run that ended well, if the scene says so. One that cannot be removed
+    /// does no harm.
     pub fn tidy(&self, scene: &Scene) {
         if scene
             .program

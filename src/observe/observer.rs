@@ -17,8 +17,8 @@ use totals::Totals;
 ///
 /// Observables that refer to the axis (hole, rotation, fluctuation) are measured in a round tank or
 /// in swirling air; the speed of the air in swirling air; elastic energy with contacts; flow if
-/// spheres come and go; the energy ledger and further columns on request. Sums run over the spheres in the order of
-/// their indices, so equal states give equal bits.
+/// spheres come and go; the energy ledger and further columns on request. Sums run over the spheres
+/// in the order of their indices, so equal states give equal bits.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Observer {
     /// Components along x and z of gravity minus buoyancy, 0 without gravity (m/s2).

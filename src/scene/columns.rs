@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 /// What a scene must have for a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Needs {
+enum ColumnNeeds {
     /// Nothing but spheres.
     Spheres,
     /// Velocities that describe motion.
@@ -60,9 +60,9 @@ macro_rules! further_columns {
                 }
             }
 
-            const fn needs(self) -> Needs {
+            const fn needs(self) -> ColumnNeeds {
                 match self {
-                    $(Self::$Column => Needs::$needs,)*
+                    $(Self::$Column => ColumnNeeds::$needs,)*
                 }
             }
         }
@@ -120,12 +120,15 @@ impl FurtherColumn {
     /// Whether it is one of contacts, which the model measures; else it follows from the spheres
     /// of a frame.
     pub fn is_of_contacts(self) -> bool {
-        matches!(self.needs(), Needs::Contacts | Needs::ContactsInLayer)
+        matches!(
+            self.needs(),
+            ColumnNeeds::Contacts | ColumnNeeds::ContactsInLayer
+        )
     }
 
     /// Whether the forces of contacts are needed for it.
     pub fn is_of_forces(self) -> bool {
-        self.needs() == Needs::ContactsInLayer
+        self.needs() == ColumnNeeds::ContactsInLayer
     }
 
     /// Why runs of this scene cannot have it, if they cannot.
@@ -140,16 +143,16 @@ impl FurtherColumn {
         };
         let layerless = || without_layer(scene);
         match self.needs() {
-            Needs::Spheres => None,
-            Needs::Motion => still(),
-            Needs::Spins => {
+            ColumnNeeds::Spheres => None,
+            ColumnNeeds::Motion => still(),
+            ColumnNeeds::Spins => {
                 let why = "spheres turn only in a scene with [friction]";
                 scene.dem.friction.is_none().then_some(why)
             }
-            Needs::Contacts => apart(),
-            Needs::Layer => layerless(),
-            Needs::MotionInLayer => still().or_else(layerless),
-            Needs::ContactsInLayer => apart().or_else(layerless),
+            ColumnNeeds::Contacts => apart(),
+            ColumnNeeds::Layer => layerless(),
+            ColumnNeeds::MotionInLayer => still().or_else(layerless),
+            ColumnNeeds::ContactsInLayer => apart().or_else(layerless),
         }
     }
 

@@ -30,7 +30,8 @@ const STUDY_KEY: &str = "study";
 const ABLATION: &str = "ablation";
 
 impl FileKind {
-    /// The kind of a document, and the key that determines it (for a scene, `spheres` or `program`).
+    /// The kind of a document, and the key that determines it (for a scene, `spheres` or
+    /// `program`).
     pub(crate) fn of(document: &Document) -> (Self, &'static str) {
         let tree: &Value = document.tree();
         let has = |key: &str| tree.get(key).is_some();

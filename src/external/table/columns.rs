@@ -1,4 +1,4 @@
-//! RowReader that grow row by row.
+//! Columns that grow row by row.
 
 use super::NumberTable;
 use super::error::{TableError, count, quote};
@@ -21,7 +21,7 @@ pub(super) struct RowPlace {
 }
 
 impl<'p> RowReader<'p> {
-    /// RowReader without rows. The names stand in `line`, if they stand in the file.
+    /// Columns without rows. The names stand in `line`, if they stand in the file.
     pub(super) fn new(
         path: &'p Path,
         names: Vec<String>,

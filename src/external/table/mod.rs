@@ -21,8 +21,8 @@ pub(in crate::external) use error::list;
 use crate::scene::TableFormat;
 use std::path::Path;
 
-/// RowReader of numbers that a program left behind: one at least, all of equal length, with a row at
-/// least.
+/// Columns of numbers that a program left behind: one at least, all of equal length, with a row
+/// at least.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NumberTable {
     /// The name of each column. No two are equal, except that a CSV file may leave out the names of
@@ -46,7 +46,8 @@ impl NumberTable {
 }
 
 /// Reads a table. `names` are those of the columns if the file has none of its own, which happens
-/// with [`TableFormat::Csv`], [`TableFormat::Text`] and [`TableFormat::Numpy`]; otherwise they are not used.
+/// with [`TableFormat::Csv`], [`TableFormat::Text`] and [`TableFormat::Numpy`]; otherwise they are
+/// not used.
 ///
 /// # Errors
 /// If the file has more than `most_bytes`, packed or unpacked, or is no whole table of that format.

@@ -97,13 +97,17 @@ impl Scene {
 }
 
 impl ExternalProgram {
-    /// Whether a name is the path of a file in the folder of a run, and not of one that this program
-    /// writes there for itself.
+    /// Whether a name is the path of a file in the folder of a run.
     pub(crate) fn is_inside(name: &str) -> bool {
         let mut parts = Path::new(name).components();
         let is_plain = parts.all(|it| matches!(it, Component::Normal(_)));
         let ends_well = !name.is_empty() && !name.ends_with('/');
-        is_plain && ends_well && !name.contains(['\\', '\0']) && !name.starts_with("phase-")
+        is_plain && ends_well && !name.contains(['\\', '\0'])
+    }
+
+    /// Whether a name is of a file that this program writes there for itself.
+    pub(crate) fn is_reserved(name: &str) -> bool {
+        name.starts_with("phase-")
     }
 
     /// The names that marks may have, besides parameters.

@@ -115,6 +115,11 @@ impl Scene {
             let path = format!("program.files[{place}]");
             self.check_place(&file.name, &format!("{path}.name"), problems);
             let name = self.filled_text(&file.name);
+            if ExternalProgram::is_reserved(&name) {
+                let message = format!("`{}` is a file of this program", shown(&name));
+                let help = "use a name that does not begin with `phase-`";
+                problems.push(Problem::new(format!("{path}.name"), message).help(help));
+            }
             if names.contains(&name) {
                 let message = format!("two files have the name `{}`", shown(&name));
                 problems.push(Problem::new(&path, message).help("rename one of them"));
@@ -193,8 +198,7 @@ impl Scene {
         let name = self.filled_text(name);
         if !ExternalProgram::is_inside(&name) {
             let message = format!("`{}` is no file in the folder of a run", shown(&name));
-            let help = "write its path in this folder, without `..`, without a leading `/`, and not \
-                        `phase-...`, as files of this program are called there";
+            let help = "write its path in this folder, without `..` and without a leading `/`";
             problems.push(Problem::new(path, message).help(help));
         }
     }

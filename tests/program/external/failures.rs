@@ -24,7 +24,7 @@ const CASES: [(&str, &str); 9] = [
     ),
     (
         "printf 't,z\\n0,1\\n' > out.csv",
-        "out.csv: there is no column `y`; its columns are t, z",
+        "out.csv: there is no column `y`; its columns are \"t\", \"z\"",
     ),
     (
         "printf 't,y\\n1,1\\n0,1\\n' > out.csv",

@@ -105,8 +105,9 @@ fn a_program_that_outlived_its_phase_is_not_joined() {
     let sweep = &["sweep", "model.toml", "--allow-program"];
     let child = place.start(sweep);
     wait_until(|| file.exists());
-    signal(&child, "KILL");
-    end(child);
+    let mut child = child;
+    child.kill().unwrap();
+    child.wait().unwrap();
     place
         .phase(sweep)
         .code(1)
