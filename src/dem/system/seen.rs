@@ -38,8 +38,8 @@ pub(in crate::dem) enum Partner {
 
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     /// Shows all contacts of spheres that move, in an order that is part of the bits of sums over
-    /// them: all pairs, then wall by wall. Forces are those of the present positions and velocities;
-    /// tangential springs are as at their latest evaluation, at most a step ago.
+    /// them: all pairs, then wall by wall. Forces are those of the present positions and
+    /// velocities; tangential springs are as at their latest evaluation, at most a step ago.
     pub(super) fn see_contacts(&mut self, forces: bool, see: &mut dyn FnMut(SeenContact)) {
         if !N::ACTS || self.neighbours.list.is_none() {
             return;
