@@ -13,7 +13,9 @@ fn scene(friction: &str, seed: u64) -> Scene {
     let text = format!(
         r#"
         seed = {seed}
-        spheres = {{ count = 60, radius = [{{ radius = 0.004, share = 1 }}, {{ radius = 0.005, share = 1 }}], density = 1000.0 }}
+        spheres.count = 60
+        spheres.radius = [{{ radius = 0.004, share = 1 }}, {{ radius = 0.005, share = 1 }}]
+        spheres.density = 1000.0
         tank = {{ radius = 0.03, floor = 0.0 }}
         start = {{ kind = "random", z_min = 0.0, z_max = 0.08 }}
         gravity = {{ acceleration = 9.8 }}
