@@ -50,7 +50,7 @@ impl<'run> Frames<'run> {
     }
 
     /// The values of a formula, one per frame; none if one of them is not a number or there are no
-    /// frames. What has become too large for a number is infinite.
+    /// frames. What is too large for a number is infinite.
     pub(super) fn series(&self, formula: &Formula<ColumnPlace>) -> Option<Vec<f64>> {
         let frames = self.window.clone();
         let value = |frame| formula.value(&self.keys, &|column| self.at(*column, frame));

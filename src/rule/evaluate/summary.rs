@@ -2,6 +2,13 @@
 
 use crate::rule::syntax::Summary;
 
+impl Summary {
+    /// Whether it is one of the values, for which their order is enough.
+    pub(super) fn is_of_order(self) -> bool {
+        matches!(self, Self::Min | Self::Max | Self::First | Self::Last)
+    }
+}
+
 /// The summary of a series with its times; none if it has too few values.
 pub(super) fn value(summary: Summary, series: &[f64], times: &[f64]) -> Option<f64> {
     match summary {

@@ -121,8 +121,8 @@ fn headers() {
             "two-columns.npy",
             "{'descr': '<f8', 'fortran_order': False, 'shape': (1, 2)}",
             16,
-            ": the file has 2 columns, but `names` lists 1 name; list one name for each column \
-             in `names`",
+            ": the file has 2 columns, but `header` lists 1 name; list one name for each column \
+             in `header`",
         ),
     ] {
         check(name, &npy(header, data), expected);
@@ -227,9 +227,9 @@ fn one_array_needs_one_name() {
         let error = read_bytes("one.npy", &data("one.npy"), Numpy, names, MOST).unwrap_err();
         let expected = match names {
             [] => "one.npy: the file has no names for its 1 column",
-            _ => "one.npy: the file has 1 column, but `names` lists 2 names",
+            _ => "one.npy: the file has 1 column, but `header` lists 2 names",
         };
-        let help = "list one name for each column in `names`";
+        let help = "list one name for each column in `header`";
         assert_eq!(error.to_string(), format!("{expected}; {help}"));
     }
 }

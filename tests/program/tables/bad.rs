@@ -61,14 +61,14 @@ const CSV: &[Case<'_>] = &[
         b"0,1\n1,2\n",
         &[],
         ":1: the file has no names for its 2 columns; write a line of names before this one, or \
-         list one name for each column in `names`",
+         list one name for each column in `header`",
     ),
     (
         "one-name.csv",
         b"0,1\n1,2\n",
         &["t"],
-        ":1: the file has 2 columns, but `names` lists 1 name; write a line of names before this \
-         one, or list one name for each column in `names`",
+        ":1: the file has 2 columns, but `header` lists 1 name; write a line of names before this \
+         one, or list one name for each column in `header`",
     ),
     (
         "twice.csv",
@@ -187,14 +187,14 @@ const TEXT: &[Case<'_>] = &[
         b"# done by x\n0 1\n",
         &[],
         ":2: the file has no names for its 2 columns; write them before the first row as `# time \
-         energy`, or list one name for each column in `names`",
+         energy`, or list one name for each column in `header`",
     ),
     (
         "other-names.txt",
         b"0 1\n",
         &["a", "b", "c"],
-        ":1: the file has 2 columns, but `names` lists 3 names; write them before the first row \
-         as `# time energy`, or list one name for each column in `names`",
+        ":1: the file has 2 columns, but `header` lists 3 names; write them before the first row \
+         as `# time energy`, or list one name for each column in `header`",
     ),
     (
         "row-numbers.txt",
