@@ -54,7 +54,9 @@ pub(crate) fn rate(value: f64, unit: &str) -> String {
 pub(crate) fn with_prefix(value: f64, unit: &str) -> String {
     let prefixes = [(1e12, "T"), (1e9, "G"), (1e6, "M"), (1e3, "k")];
     let Some((scale, prefix)) = prefixes.into_iter().find(|(scale, _)| value >= *scale) else {
-        return format!("{value:.0} {}", unit.trim_start());
+        // Whole things have no fraction.
+        let decimals = usize::from(value < 9.95 && value.fract() != 0.0);
+        return format!("{value:.decimals$} {}", unit.trim_start());
     };
     let scaled = value / scale;
     let decimals = match scaled {
@@ -128,5 +130,6 @@ mod tests {
         }
         assert_eq!(work(960_000.0, "sphere-steps"), "960 k sphere-steps");
         assert_eq!(rate(7.0, "spot-moves"), "7 spot-moves/s");
+        assert_eq!(rate(0.42, "runs"), "0.4 runs/s");
     }
 }

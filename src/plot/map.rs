@@ -40,6 +40,8 @@ fn of_family(family: &'static Family) -> impl Iterator<Item = MeasureMap> {
 /// The map of that name of a measure that the rules of a file added, if there is one.
 pub(super) fn of_rules(name: &str, family: &'static Family) -> Option<MeasureMap> {
     let has_rules = !FAMILIES.contains(&family);
+    // Measures are named with `_` in files.
+    let name = name.replace('_', "-");
     of_family(family).find(|map| has_rules && map.name == name)
 }
 

@@ -158,6 +158,13 @@ impl Scene {
             return Problem::new("", format!("the scene has no [{table}] to vary `{key}` in"))
                 .help(format!("add [{table}] to the scene"));
         }
+        let parameter = key.strip_prefix(PARAMETERS);
+        let parameter = parameter.and_then(|it| it.strip_prefix('.')).unwrap_or(key);
+        if let Some(value) = self.parameters.get(parameter) {
+            let message = format!("`{key}` is {value}, not a number");
+            return Problem::new("", message)
+                .help("write a number without quotes, or use variants");
+        }
         let leaves = paths.iter().map(|path| leaf(path));
         let near = suggest(key, paths.iter().map(String::as_str).chain(leaves));
         let known = format!("this scene has {}", one_of(paths));

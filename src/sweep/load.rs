@@ -160,6 +160,7 @@ fn check_sieves(sweep: &Sweep, tree: &Value, problems: &mut Vec<Problem>) {
             problems.push(problem.help("use another name: both are columns of one table"));
         }
     }
+    check_uses(sweep, problems);
     let family = Family::of(&sweep.scene);
     let has_labels = !sweep.sieves.rules.labels.is_empty();
     if has_labels && tree.get("sieves").is_some() {
@@ -222,6 +223,25 @@ fn check_sieves(sweep: &Sweep, tree: &Value, problems: &mut Vec<Problem>) {
             problems.push(Problem::new(path, message).help(help));
         }
         _ => {}
+    }
+}
+
+/// An axis over what no program is given changes nothing.
+fn check_uses(sweep: &Sweep, problems: &mut Vec<Problem>) {
+    for (place, axis) in sweep.axes.iter().enumerate() {
+        let Some(name) = axis.key.strip_prefix("parameters.") else {
+            continue;
+        };
+        let programs = sweep
+            .scenes()
+            .into_iter()
+            .filter_map(|it| it.program.as_ref());
+        if !programs.into_iter().any(|program| program.is_given(name)) {
+            let message = format!("no program is given `@{{{name}}}`: all its runs would be equal");
+            let help = format!("write `@{{{name}}}` in a command or in one of `program.files`");
+            let problem = Problem::new(format!("axis[{place}].key"), message);
+            problems.push(problem.help(help));
+        }
     }
 }
 

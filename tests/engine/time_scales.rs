@@ -90,6 +90,10 @@ const ROWS: [(&str, Row); 47] = [
     ),
     ("steady.check_interval", None("a whole number of frames")),
     ("output.snapshot_interval", None("a whole number of frames")),
+    (
+        "program.time_limit",
+        None("another program has its own steps"),
+    ),
     ("output.rise_speeds", None("thresholds of what is measured")),
     // No second in these, but fields that decay with height and so are springs.
     ("updraught.decay", Limit("drag", HERTZ)),

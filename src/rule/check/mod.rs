@@ -128,7 +128,11 @@ fn unknown_name(name: &str, term: &Term, names: &dyn Names) -> ExpressionError {
     known.push(TIME.to_owned());
     known.sort_unstable();
     known.dedup();
-    let help = match suggest(name, known.iter().map(String::as_str)) {
+    let ending = format!(".{name}");
+    let own = known.iter().find(|it| it.ends_with(&ending));
+    let near = own.map(String::as_str);
+    let near = near.or_else(|| suggest(name, known.iter().map(String::as_str)));
+    let help = match near {
         Some(meant) => format!("write `{meant}`"),
         None => {
             let more = match known.len().saturating_sub(NAMES_SHOWN) {

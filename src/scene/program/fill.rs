@@ -97,6 +97,15 @@ impl Scene {
 }
 
 impl ExternalProgram {
+    /// Whether a mark of that name stands in a command or in a file.
+    pub(crate) fn is_given(&self, name: &str) -> bool {
+        let resumed = self.resume.iter().flat_map(|it| &it.commands);
+        let words = self.commands.iter().chain(resumed).flatten();
+        let texts = self.texts().flat_map(|file| [&file.name, &file.text]);
+        let is_mark = |piece| matches!(piece, TextPiece::Mark(own, _) if own == name);
+        words.chain(texts).any(|text| Marks::of(text).any(is_mark))
+    }
+
     /// Whether a name is the path of a file in the folder of a run.
     pub(crate) fn is_inside(name: &str) -> bool {
         let mut parts = Path::new(name).components();
