@@ -15,7 +15,7 @@ enum Row {
 }
 use Row::{Limit, None};
 
-const ROWS: [(&str, Row); 47] = [
+const ROWS: [(&str, Row); 48] = [
     ("start.random.speed", Limit("displacement", HERTZ)),
     ("start.random.spin", Limit("Magnus lift", HERTZ)),
     ("start.list.spheres.velocity", Limit("displacement", LISTED)),
