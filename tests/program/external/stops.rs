@@ -16,7 +16,7 @@ fn a_stop_ends_the_program_with_all_that_it_started() {
     let processes = tempfile::tempdir().unwrap();
     let file = processes.path().join("processes");
     let script = format!(
-        "sleep 60 & echo $$ $! > {0}.part; mv {0}.part {0}; wait",
+        "sleep 60 & echo $$ $! > {0}.part; mv {0}.part {0}; wait # @{{x}}",
         file.display()
     );
     let place = place_of(&script, "[1.0]", "");
@@ -128,7 +128,7 @@ fn another_ctrl_c_ends_programs_that_do_not_listen() {
     let processes = tempfile::tempdir().unwrap();
     let file = processes.path().join("process");
     let script = format!(
-        "trap '' TERM; echo $$ > {0}.part; mv {0}.part {0}; while :; do sleep 1; done",
+        "trap '' TERM; echo $$ > {0}.part; mv {0}.part {0}; while :; do sleep 1; done # @{{x}}",
         file.display()
     );
     let place = place_of(&script, "[1.0]", "");
