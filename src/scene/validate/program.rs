@@ -271,21 +271,15 @@ fn check_columns<'a>(
         let unit = column.unit();
         problems.extend(wrong_unit(unit, &format!("{path}.unit")));
     }
-    for (key, wanted) in [("time", table.time.as_deref())] {
-        let header = &table.header;
-        if let Some(wanted) = wanted
-            && !header.is_empty()
-            && !header.iter().any(|it| it == wanted)
-        {
-            let message = format!("`header` names no column `{wanted}`");
-            let problem = Problem::new(format!("{path}.{key}"), message);
-            problems.push(problem.help("give the name as `header` has it"));
-        }
+    let header = &table.header;
+    let is_lacking = |name: &str| !header.is_empty() && !header.iter().any(|it| it == name);
+    if let Some(wanted) = table.time.as_deref().filter(|it| is_lacking(it)) {
+        let message = format!("`header` names no column `{wanted}`");
+        let problem = Problem::new(format!("{path}.time"), message);
+        problems.push(problem.help("give the name as `header` has it"));
     }
-    if let Some(lacking) = table.columns.iter().find(|column| {
-        let header = &table.header;
-        !header.is_empty() && !header.iter().any(|it| it == column.source())
-    }) {
+    let mut columns = table.columns.iter();
+    if let Some(lacking) = columns.find(|column| is_lacking(column.source())) {
         let message = format!("`header` names no column `{}`", lacking.source());
         let problem = Problem::new(format!("{path}.header"), message);
         problems.push(problem.help("name all columns of the file, in order"));

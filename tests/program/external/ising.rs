@@ -1,16 +1,11 @@
 //! The Ising model by a script of Python: its border is known.
 
+use super::{has, say};
 use crate::support::Workplace;
-use std::process::Command;
 
 /// Where sinh(2 J1/T) sinh(2 J2/T) = 1 (Onsager, 1944), for the other coupling.
 fn border(coupling: f64) -> f64 {
     0.5 * (1.0 / (2.0 * coupling).sinh()).asinh()
-}
-
-fn has_python() -> bool {
-    let answer = Command::new("python3").arg("--version").output();
-    answer.is_ok_and(|it| it.status.success())
 }
 
 /// The shipped sweep: the exact border lies in the band of 95 % at nine of ten grid lines that it
@@ -19,8 +14,7 @@ fn has_python() -> bool {
 #[test]
 #[ignore = "takes a minute or two"]
 fn the_border_lies_in_its_band() {
-    if !has_python() {
-        println!("skipped: `python3` is not installed");
+    if !has("python3", "--version") {
         return;
     }
     let place = Workplace::new();
@@ -47,10 +41,10 @@ fn the_border_lies_in_its_band() {
         held += usize::from(number("low_95") <= exact && exact <= number("high_95"));
         width += (number("high_95") - number("low_95")) / number(along);
     }
-    println!(
-        "{held} of {crossed} held, mean width {}",
-        width / f64::from(crossed)
-    );
+    let width = width / f64::from(crossed);
+    say(&format!(
+        "{held} of {crossed} lines held, bands of {width:.3} of J/T on average"
+    ));
     assert!(crossed >= 150, "{crossed} lines are crossed");
     assert!(10 * held >= 9 * crossed as usize, "{held} of {crossed}");
 }
@@ -58,8 +52,7 @@ fn the_border_lies_in_its_band() {
 /// One run far on either side of the border.
 #[test]
 fn a_run_on_either_side_has_its_label() {
-    if !has_python() {
-        println!("skipped: `python3` is not installed");
+    if !has("python3", "--version") {
         return;
     }
     let place = Workplace::new();

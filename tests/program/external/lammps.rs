@@ -1,7 +1,7 @@
 //! Grains on an incline by LAMMPS and by the engine: two programs, one scene.
 
+use super::has;
 use crate::support::Workplace;
-use std::process::Command;
 
 /// A shipped sweep over four points that lie deep in the three regions, with one seed.
 fn coarse(name: &str) -> String {
@@ -14,9 +14,7 @@ fn coarse(name: &str) -> String {
 /// the same scene here. At these points three seeds and their neighbours agree in both programs.
 #[test]
 fn an_input_of_lammps_has_the_labels_of_the_same_scene_here() {
-    let lammps = Command::new("lmp").arg("-h").output();
-    if !lammps.is_ok_and(|it| it.status.success()) {
-        println!("skipped: `lmp` (LAMMPS) is not installed");
+    if !has("lmp", "-h") {
         return;
     }
     let place = Workplace::new();

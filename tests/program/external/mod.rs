@@ -11,6 +11,28 @@ mod studies;
 mod versions;
 
 use crate::support::Workplace;
+use std::io::Write;
+use std::process::Command;
+
+/// Whether a program is there that a test needs. Where it is absent the test says so; with
+/// `PHASE_NEED_PROGRAMS=1` in the environment, as in continuous integration, it fails.
+pub(crate) fn has(program: &str, argument: &str) -> bool {
+    let answer = Command::new(program).arg(argument).output();
+    let is_there = answer.is_ok_and(|it| it.status.success());
+    let required = std::env::var_os("PHASE_NEED_PROGRAMS").is_some();
+    assert!(is_there || !required, "{program} is needed but absent");
+    if !is_there {
+        say(&format!("SKIPPED a check of programs: {program} is absent"));
+    }
+    is_there
+}
+
+/// Says something that the test runner does not hide.
+pub(crate) fn say(text: &str) {
+    std::io::stderr()
+        .write_all(format!("{text}\n").as_bytes())
+        .unwrap();
+}
 
 /// A sweep over `x` that runs a script of the shell, which may use marks and writes the columns
 /// `t` and `y` to `out.csv`. `more` goes into the table of the program.
