@@ -45,7 +45,7 @@ impl NumberTable {
     }
 }
 
-/// Reads a table. `names` are those of the columns if the file has none of its own, which happens
+/// Reads a table. `names` name the columns if the file has no names of its own, which happens
 /// with [`TableFormat::Csv`], [`TableFormat::Text`] and [`TableFormat::Numpy`]; otherwise they are
 /// not used.
 ///
