@@ -103,7 +103,8 @@ pub(super) fn forecast(
     folder: &Folder,
 ) -> Result<Forecast, Failure> {
     if places.iter().any(|&it| next.jobs[it].scene().is_external()) {
-        let mean = programs::seconds_of_runs(folder, &next.jobs, 1)?.ok_or_else(|| {
+        let plan = Plan::new(folder, next.jobs.clone(), 1)?;
+        let mean = programs::seconds_of_runs(&plan).ok_or_else(|| {
             Failure::refused(
                 "how long a run of its program takes is not known until one is done: make one \
                  first, such as `phase sweep FILE --job \"$(phase jobs FILE | head -1)\"`",

@@ -81,6 +81,15 @@ pub(crate) fn core_hours(seconds: f64) -> String {
     }
 }
 
+/// A word as a shell needs it.
+pub(crate) fn word_of_shell(text: &str) -> String {
+    let is_plain = |it: char| it.is_ascii_alphanumeric() || "/._-=:,+%@".contains(it);
+    match !text.is_empty() && text.chars().all(is_plain) {
+        true => text.to_owned(),
+        false => format!("'{}'", text.replace('\'', r"'\''")),
+    }
+}
+
 /// A number of things: `1 job`, `2 jobs`.
 pub(crate) fn count(number: usize, thing: &str) -> String {
     let plural = match number {

@@ -6,7 +6,7 @@ use super::interrupt;
 use phase::document::shown;
 use phase::external::find_version;
 use phase::scene::{ExternalProgram, Scene};
-use phase::sweep::{Folder, Job, Plan, Sweep};
+use phase::sweep::{Folder, Plan, Sweep};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::env;
@@ -115,16 +115,11 @@ fn find_versions(
     Ok(())
 }
 
-/// How long a run took on average (s), of those of these jobs that a results folder holds.
-pub(super) fn seconds_of_runs(
-    folder: &Folder,
-    jobs: &[Job],
-    workers: usize,
-) -> Result<Option<f64>, Failure> {
-    let plan = Plan::new(folder, jobs.to_vec(), workers)?;
+/// How long a run took on average (s), if any run of a plan is done.
+pub(super) fn seconds_of_runs(plan: &Plan) -> Option<f64> {
     let times = plan.done().map(|(_, done)| done.cpu_seconds);
     let (runs, seconds) = times.fold((0, 0.0), |(runs, sum), it| (runs + 1, sum + it));
-    Ok((runs > 0).then(|| seconds / f64::from(runs)))
+    (runs > 0).then(|| seconds / f64::from(runs))
 }
 
 /// Gives the programs of a sweep the versions that a results folder keeps of them, if it does.

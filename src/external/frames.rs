@@ -2,6 +2,7 @@
 
 use super::run_folder::RunFolder;
 use super::table::{self, NumberTable};
+use crate::document::shown;
 use crate::scene::{ExternalProgram, ProgramTable};
 
 /// The rows that all tables have.
@@ -47,7 +48,10 @@ impl TableFrames {
             let place = table.names.iter().position(|it| it == name);
             place.ok_or_else(|| {
                 let known = table::list(&table.names);
-                format!("there is no column `{name}`; its columns are {known}")
+                format!(
+                    "there is no column `{}`; its columns are {known}",
+                    shown(name)
+                )
             })
         };
         let places: Vec<usize> = asked

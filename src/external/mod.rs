@@ -23,11 +23,6 @@ use crate::simulation::BuildError;
 use simulation::ExternalSimulation;
 use std::io;
 
-/// A scene is of no other program.
-#[derive(Debug, thiserror::Error)]
-#[error("the scene names no program")]
-struct NoProgram;
-
 /// The folder of a run cannot be made.
 #[derive(Debug, thiserror::Error)]
 #[error("{}: {source}{}", path.display(), crate::document::advice(source))]
@@ -43,9 +38,6 @@ struct NoRunFolder {
 /// # Errors
 /// If the scene has no program, or the folder cannot be made or is of something else.
 pub fn begin(scene: &Scene, run_folder: RunFolder, may_go_on: bool) -> Result<Run, BuildError> {
-    if scene.program.is_none() {
-        return Err(BuildError::new(NoProgram));
-    }
     let path = run_folder.path().to_owned();
     let simulation = ExternalSimulation::new(scene, run_folder, may_go_on);
     let simulation = simulation.map_err(|source| BuildError::new(NoRunFolder { path, source }))?;

@@ -75,10 +75,10 @@ impl ChildProcess {
         while asked.elapsed() < GRACE {
             match self.look() {
                 Ok(None) => {}
-                _ => break,
+                Ok(Some(_)) => return,
+                Err(_) => break,
             }
         }
-        signal(self.child.id(), Request::Kill);
         let _ = self.child.kill();
         let _ = self.child.wait();
         self.note_end();

@@ -49,7 +49,6 @@ enum RunStage {
 }
 
 /// The commands of a run that are left.
-#[derive(Clone)]
 struct Commands {
     all: Vec<Vec<String>>,
     /// The one that runs or is next.

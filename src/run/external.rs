@@ -1,5 +1,6 @@
 //! What is known of a scene of another program before it runs.
 
+use crate::document::shown;
 use crate::scene::Scene;
 use crate::simulation::{BuildError, Model, PartOfStep, Simulation};
 
@@ -29,7 +30,7 @@ impl Model for ExternalModel {
 
     fn build(&self, scene: &Scene) -> Result<Box<dyn Simulation>, BuildError> {
         let programs = scene.program.iter().flat_map(|it| it.programs());
-        let programs: Vec<&str> = programs.collect();
+        let programs: Vec<String> = programs.map(shown).collect();
         Err(BuildError::new(NotStarted(programs.join("`, `"))))
     }
 }

@@ -89,7 +89,7 @@ impl Sweep {
         self.sieves.family(&self.scene)
     }
 
-    /// Its scene and those of its variants.
+    /// Its scene and the scenes of its variants.
     pub fn scenes_mut(&mut self) -> impl Iterator<Item = &mut Scene> {
         let variants = self.axes.iter_mut().flat_map(|axis| &mut axis.variants);
         let of_variants = variants.map(|variant| &mut variant.scene);

@@ -341,11 +341,7 @@ fn word(text: &OsStr) -> Result<String, Failure> {
             text.display()
         ))
     })?;
-    let is_plain = |it: char| it.is_ascii_alphanumeric() || "/._-=:,+%@".contains(it);
-    Ok(match !text.is_empty() && text.chars().all(is_plain) {
-        true => text.to_owned(),
-        false => format!("'{}'", text.replace('\'', r"'\''")),
-    })
+    Ok(format::word_of_shell(text))
 }
 
 /// A time as Slurm and row read it.

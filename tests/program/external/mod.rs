@@ -14,7 +14,7 @@ use crate::support::Workplace;
 use std::io::Write;
 use std::process::Command;
 
-/// Whether a program is there that a test needs. Where it is absent the test says so; with
+/// Whether a test has the program that it needs. Where it is absent the test says so; with
 /// `PHASE_NEED_PROGRAMS=1` in the environment, as in continuous integration, it fails.
 pub(crate) fn has(program: &str, argument: &str) -> bool {
     let answer = Command::new(program).arg(argument).output();

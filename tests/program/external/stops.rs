@@ -5,7 +5,7 @@ use super::{MODEL, place_of};
 use crate::support::{end, signal, wait_until};
 use std::process::Command;
 
-/// Whether a process is there and no zombie.
+/// Whether a process runs.
 fn is_alive(process: &str) -> bool {
     let answer = Command::new("kill").args(["-0", process.trim()]).output();
     answer.unwrap().status.success()

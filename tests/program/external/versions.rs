@@ -62,7 +62,7 @@ fn identities_are_of_what_is_measured() {
 }
 
 /// Symptom: an edited file with other thresholds was refused, as one of other runs, because it had
-/// no version yet; and a longer time limit made all records those of another run.
+/// no version yet; and a longer time limit made all records useless.
 #[test]
 fn thresholds_and_limits_change_without_new_runs() {
     let more = "version = [\"echo\", \"1\"]\ntime_limit = 5.0";

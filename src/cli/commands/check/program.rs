@@ -6,7 +6,7 @@ use crate::cli::exit::Failure;
 use crate::cli::{folders, format, programs};
 use phase::document::shown;
 use phase::grid::describe;
-use phase::scene::Scene;
+use phase::scene::{ExternalProgram, Scene};
 use phase::sweep::{Folder, Job, Plan, Sweep};
 use std::path::Path;
 
@@ -15,32 +15,29 @@ pub(super) fn runs_all(sweep: &Sweep) -> bool {
     sweep.scenes().into_iter().all(Scene::is_external)
 }
 
-/// Prints the commands of the first run of each scene, its files, and what is read.
+/// Prints the commands of the first run of each program, its files, and what is read.
 pub(super) fn describe_programs(sweep: &Sweep, jobs: &[Job], console: &Console) {
-    let mut kinds: Vec<String> = Vec::new();
+    let mut known: Vec<&Option<ExternalProgram>> = Vec::new();
     for job in jobs {
+        let own = &sweep.start_of(&job.values).program;
+        if known.contains(&own) {
+            continue;
+        }
+        known.push(own);
         let scene = job.scene();
         let (Some(program), Some(filled)) = (&scene.program, scene.filled_program()) else {
             continue;
         };
-        let start = sweep.start_of(&job.values);
-        let kind = format!("{:?}", start.program);
-        if kinds.contains(&kind) {
-            continue;
-        }
-        kinds.push(kind);
         let at = describe(&sweep.axes, &job.values, job.seed);
         console.result(line(
             "program",
             format_args!("at {at}, in a folder of its own:"),
         ));
         for words in &filled.commands {
-            let words: Vec<String> = words.iter().map(|word| quoted(word)).collect();
-            console.result(line("", words.join(" ")));
+            console.result(line("", command(words)));
         }
         if let Some((file, commands)) = &filled.resume {
-            let words = |words: &Vec<String>| words.iter().map(|it| quoted(it)).collect::<Vec<_>>();
-            let commands: Vec<String> = commands.iter().map(|it| words(it).join(" ")).collect();
+            let commands: Vec<String> = commands.iter().map(|it| command(it)).collect();
             let text = format!("from {}: {}", shown(file), commands.join("; "));
             console.result(line("goes on", text));
         }
@@ -62,17 +59,14 @@ pub(super) fn describe_programs(sweep: &Sweep, jobs: &[Job], console: &Console) 
     }
 }
 
-/// A word of a command as a shell would need it.
-fn quoted(word: &str) -> String {
-    let is_plain = |it: char| it.is_ascii_alphanumeric() || "-_./=:,+@%".contains(it);
-    match !word.is_empty() && word.chars().all(is_plain) {
-        true => word.to_owned(),
-        false => format!("'{}'", shown(word).replace('\'', "'\\''")),
-    }
+/// A command as a shell needs it, without what a terminal would hide.
+fn command(words: &[String]) -> String {
+    let words = words.iter().map(|it| format::word_of_shell(&shown(it)));
+    words.collect::<Vec<_>>().join(" ")
 }
 
-/// Forecasts the time of the runs that are left, from those that the default folder of the file
-/// holds: how long a program takes is not known before.
+/// Forecasts the time of the runs that are left, from the runs that the default folder of the
+/// file holds: how long a program takes is not known before.
 pub(super) fn forecast(
     sweep: &mut Sweep,
     file: &Path,
@@ -81,13 +75,12 @@ pub(super) fn forecast(
 ) -> Result<(), Failure> {
     let folder = Folder::new(folders::default_folder(file));
     programs::take_versions(sweep, &folder);
-    let jobs = sweep.jobs()?;
-    let Some(mean) = programs::seconds_of_runs(&folder, &jobs, workers)? else {
+    let plan = Plan::new(&folder, sweep.jobs()?, workers)?;
+    let Some(mean) = programs::seconds_of_runs(&plan) else {
         let text = "unknown until a run is done: the program is not started here";
         console.result(line("forecast", text));
         return Ok(());
     };
-    let plan = Plan::new(&folder, jobs, workers)?;
     let left = plan.pending().count();
     let seconds = mean * left as f64 / workers.min(left.max(1)) as f64;
     console.result(line(
