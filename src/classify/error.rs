@@ -66,6 +66,23 @@ pub enum ClassifyError {
         /// The column.
         column: String,
     },
+    /// The record lacks columns that sieves read.
+    #[error(
+        "the sieves of a {family} read all its usual columns, and the scene records only those that \
+         `output.usual` names; remove it and run the scene again"
+    )]
+    NoColumns {
+        /// The family.
+        family: &'static str,
+    },
+    /// A rule does not fit a record's scene.
+    #[error("the rule \"{rule}\" does not fit the scene of this record: {reason}")]
+    Rule {
+        /// Name of the label or measure.
+        rule: String,
+        /// Why.
+        reason: String,
+    },
     /// The parts of a record contradict each other.
     #[error("the record contradicts itself: {0}; run the scene again")]
     Inconsistent(String),

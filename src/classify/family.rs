@@ -2,7 +2,7 @@
 
 use super::drainage::DRAINAGE;
 use super::none::NONE;
-use super::rules::PreparedRules;
+use super::rules::{LabelOfRule, MeasureOfRule};
 use super::sieve::SieveOfFamily;
 use super::silo::SILO;
 use super::tank::TANK;
@@ -18,25 +18,30 @@ pub static FAMILIES: [&Family; 4] = [&SILO, &DRAINAGE, &TANK, &NONE];
 pub struct Family {
     /// Name, as in messages.
     pub name: &'static str,
+    /// Its labels by rules, which come before those of its sieves.
+    pub(super) rules: &'static [LabelOfRule],
     /// Its sieves, from which labels, measures, windows and checks follow.
     pub sieves: &'static [SieveOfFamily],
-    /// The labels that no sieve gives.
+    /// The labels that neither a rule nor a sieve gives.
     pub(super) without_sieve: &'static [Label],
     /// Further measures of its runs.
     pub(super) order: &'static [Measure],
+    /// Measures by rules of a file.
+    pub(super) measured: &'static [MeasureOfRule],
     /// Names of the figures that say most of a sweep.
     pub default_figures: &'static [&'static str],
     /// Whether a scene is of the family, if it is of none before.
     pub(super) takes: fn(&Scene) -> bool,
     /// Whether runs of a scene can be judged at all; each sieve checks its own thresholds.
     pub(super) check: fn(&Sieves, &Scene) -> Result<(), ClassifyError>,
-    /// Label and measures of a run that no guard ended.
+    /// Label and measures by its sieves of a run that no guard ended.
     pub(super) judge: Judge,
-    /// The rules of a file that made the family, if any did.
-    pub(super) rules: Option<&'static PreparedRules>,
+    /// The family of its scenes, if rules of a file made this one.
+    pub(super) base: Option<&'static Family>,
 }
 
-/// From a run that no guard ended to its label and to the values of its family's measures.
+/// From a run that no guard ended to the label of its family's sieves, and to the values of their
+/// measures and of the further ones.
 pub(super) type Judge = fn(&RunRecord, &Sieves) -> Result<(Label, Vec<Option<f64>>), ClassifyError>;
 
 impl Family {
@@ -48,9 +53,19 @@ impl Family {
             .unwrap_or(&NONE)
     }
 
-    /// Whether it is another family with further measures.
+    /// Whether it is another family with further labels and measures.
     pub fn extends(&self, other: &Self) -> bool {
-        self.rules.is_some_and(|rules| rules.extends(other))
+        self.is_made_of(other) && !self.has_rules_alone()
+    }
+
+    /// Whether rules of a file made it for scenes of that family.
+    pub fn is_made_of(&self, other: &Self) -> bool {
+        self.base.is_some_and(|base| base == other)
+    }
+
+    /// Whether rules alone label its runs.
+    pub fn has_rules_alone(&self) -> bool {
+        self.without_sieve.contains(&Label::OTHER)
     }
 
     /// Whether it has the labels and measures of another one, whatever the thresholds of its rules.
@@ -62,12 +77,9 @@ impl Family {
     /// The labels that its runs can have, in the order of their codes.
     pub fn labels(&self) -> Vec<Label> {
         let of_sieves = self.sieves.iter().flat_map(|sieve| sieve.labels);
-        let mut labels: Vec<Label> = self
-            .without_sieve
-            .iter()
-            .chain(of_sieves)
-            .copied()
-            .collect();
+        let of_rules = self.rules.iter().map(|rule| &rule.label);
+        let labels = self.without_sieve.iter().chain(of_sieves).chain(of_rules);
+        let mut labels: Vec<Label> = labels.copied().collect();
         labels.sort_unstable();
         labels
     }
@@ -79,6 +91,13 @@ impl Family {
 
     /// The measures of its runs, in the order of the columns.
     pub fn measures(&self) -> impl Iterator<Item = &'static Measure> + use<> {
+        let of_rules = self.rules.iter().flat_map(|rule| rule.evidence);
+        let of_file = self.measured.iter().map(|rule| &rule.measure);
+        of_rules.chain(self.measures_of_sieves()).chain(of_file)
+    }
+
+    /// What its sieves measure, and the further measures.
+    pub(super) fn measures_of_sieves(&self) -> impl Iterator<Item = &'static Measure> + use<> {
         let of_sieves = self.sieves.iter().flat_map(|sieve| sieve.measures);
         of_sieves.chain(self.order)
     }

@@ -11,6 +11,7 @@ impl Label {
 /// Scenes that are neither tank nor silo.
 pub static NONE: Family = Family {
     name: "scene without tank or outlet",
+    rules: &[],
     sieves: &[],
     without_sieve: &[Label::UNSTABLE, Label::STABLE],
     order: &[],
@@ -18,5 +19,6 @@ pub static NONE: Family = Family {
     takes: |_| true,
     check: |_, _| Ok(()),
     judge: |_, _| Ok((Label::STABLE, Vec::new())),
-    rules: None,
+    measured: &[],
+    base: None,
 };

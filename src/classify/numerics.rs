@@ -19,6 +19,7 @@ impl Label {
 /// Runs that are judged numerically. No scene is of this family by itself.
 pub static NUMERICS: Family = Family {
     name: "study of stability",
+    rules: &[],
     sieves: &[],
     without_sieve: &[
         Label::STABLE,
@@ -34,7 +35,8 @@ pub static NUMERICS: Family = Family {
         let verdict = judge_numerics(record, ENERGY_GAIN);
         Ok((verdict.label, verdict.values))
     },
-    rules: None,
+    measured: &[],
+    base: None,
 };
 
 /// Largest spurious gain of energy that counts as stable, by default.

@@ -1,13 +1,10 @@
 //! The list of all sieves.
 
 use super::drainage::blocked::BlockedSieve;
-use super::drainage::drained::DrainedSieve;
 use super::drainage::run::DrainageRun;
-use super::drainage::stagnant::StagnantSieve;
 use super::rules::{self, Rules};
 use super::sieve::{Sieve, SieveOfFamily, Sifted};
 use super::silo::arching::ArchingSieve;
-use super::silo::emptied::EmptiedSieve;
 use super::silo::flowing::FlowingSieve;
 use super::silo::outflow::Outflow;
 use super::tank::fluid::FluidSieve;
@@ -16,7 +13,7 @@ use super::tank::run::TankRun;
 use super::tank::settle::SettleSieve;
 use super::tank::spout::SpoutSieve;
 use super::{ClassifyError, Family};
-use crate::scene::Scene;
+use crate::scene::{Scene, UsualColumns};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -76,23 +73,15 @@ sieves! {
         spout: SpoutSieve,
     }
     SILO_SIEVES, sift_silo(Outflow): {
-        /// Silo: when it counts as empty.
-        emptied: EmptiedSieve,
         /// Silo: when an arch has stopped the outflow.
         arching: ArchingSieve,
         /// Silo: when grains are still leaving.
         flowing: FlowingSieve,
     }
     DRAINAGE_SIEVES, sift_drainage(DrainageRun): {
-        /// Drainage: when a box counts as empty.
-        #[serde(skip_serializing_if = "is_default")]
-        drained: DrainedSieve,
         /// Drainage: when an opening counts as blocked.
         #[serde(skip_serializing_if = "is_default")]
         blocked: BlockedSieve,
-        /// Drainage: when corners count as stagnant.
-        #[serde(skip_serializing_if = "is_default")]
-        stagnant: StagnantSieve,
     }
 }
 
@@ -100,10 +89,16 @@ impl Sieves {
     /// The family of a scene with these rules.
     pub fn family(&self, scene: &Scene) -> &'static Family {
         let base = Family::of(scene);
-        match self.rules.is_empty() {
+        let of_scene = Rules::of(scene);
+        let own = &self.rules;
+        let rules = match own.is_empty() && !own.sieves {
+            true => &of_scene,
+            false => own,
+        };
+        match rules.is_empty() {
             true => base,
             // Rules that are wrong were refused with their file.
-            false => rules::family(&self.rules, base, scene).unwrap_or(base),
+            false => rules::family(rules, base, scene).unwrap_or(base),
         }
     }
 
@@ -114,11 +109,17 @@ impl Sieves {
     /// A threshold is out of range; a tank has no gravity to measure energy by, or does not count
     /// the rising spheres that the spout sieve asks for; a silo has no outlet.
     pub fn check(&self, scene: &Scene) -> Result<(), ClassifyError> {
-        let family = self.family(scene);
-        for sieve in family.sieves {
+        let base = Family::of(scene);
+        if !self.family(scene).needs_sieves(scene) {
+            return Ok(());
+        }
+        if let (UsualColumns::Named(_), [_, ..]) = (&scene.output.usual, base.sieves) {
+            return Err(ClassifyError::NoColumns { family: base.name });
+        }
+        for sieve in base.sieves {
             (sieve.check)(self, scene)?;
         }
-        (family.check)(self, scene)
+        (base.check)(self, scene)
     }
 
     /// Sieves whose windows (s) are longer than a run of this scene, by their names: it can have

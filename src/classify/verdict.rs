@@ -1,6 +1,7 @@
 //! The evidence of all sieves for one run.
 
-use super::{ClassifyError, Family, Label, Sieves};
+use super::rules::MARGIN;
+use super::{ClassifyError, Family, Label, Sieves, rules};
 use crate::record::{Outcome, RunRecord};
 
 /// The evidence of all sieves for one run.
@@ -35,6 +36,20 @@ impl Verdict {
         Some(self)
     }
 
+    /// The margin of each rule of the family, by the code of its label; none of an unstable run. One
+    /// that is undefined is not a number.
+    pub fn margins(&self) -> Vec<(i8, f64)> {
+        if self.label == Label::UNSTABLE {
+            return Vec::new();
+        }
+        let rules = self.family.rules.iter();
+        let margins = rules.map(|rule| {
+            let margin = self.value(rule.evidence[MARGIN].name);
+            (rule.label.code, margin.unwrap_or(f64::NAN))
+        });
+        margins.collect()
+    }
+
     /// Value of the measure of that name; none if it is undefined for the run, or is no measure of
     /// the family.
     pub fn value(&self, name: &str) -> Option<f64> {
@@ -55,7 +70,7 @@ pub fn classify(record: &RunRecord, sieves: &Sieves) -> Result<Verdict, Classify
     if let Outcome::Unstable(_) = record.outcome {
         return Ok(Verdict::unmeasured(family, Label::UNSTABLE));
     }
-    let (label, values) = (family.judge)(record, sieves)?;
+    let (label, values) = rules::judge(family, record, sieves)?;
     Ok(Verdict {
         label,
         family,

@@ -153,8 +153,17 @@ impl Observations {
         self.time.len()
     }
 
+    /// Whether it is the name of a usual column, or of one of the arrays beside them.
+    pub fn is_usual(name: &str) -> bool {
+        let arrays = ["profile", "rising"];
+        arrays.contains(&name) || Self::COLUMNS.iter().any(|column| column.name == name)
+    }
+
     /// Why runs of a scene have no observable of this name, if it is one that others have.
     pub fn absent_in(scene: &Scene, name: &str) -> Option<&'static str> {
+        if !scene.output.records(name) && Self::is_usual(name) {
+            return Some("the scene records only the columns that `output.usual` names");
+        }
         let dem = &scene.dem;
         let is_round = scene.tank.as_ref().is_some_and(|it| it.radius.is_some());
         let (has_air, flows) = (dem.effects.swirl.is_some(), scene.has_flow());
@@ -200,6 +209,10 @@ impl Observations {
                 Some(values) => values.clear(),
                 None => usual.own.retain(|series| series.name != column.name()),
             }
+        }
+        for profile in &scene.output.profiles {
+            let stem = profile.stem();
+            usual.own.retain(|series| !series.name.starts_with(&stem));
         }
         usual
     }

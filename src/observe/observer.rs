@@ -27,12 +27,14 @@ pub struct Observer {
     inertial_factor: f64,
     /// |Omega| of the swirling air, 0 without swirl (rad/s).
     air_rotation: f64,
-    /// Whether the scene has an axis about which spheres may turn.
+    /// Whether what refers to an axis about which spheres may turn is recorded.
     has_axis: bool,
     has_air: bool,
     has_contacts: bool,
-    /// Whether velocities describe motion: in the spot model they are only mean displacements.
+    /// Whether energies are recorded: in the spot model velocities are only mean displacements.
     has_energies: bool,
+    /// Whether motion relative to the mean is recorded.
+    has_fluctuation: bool,
     /// Whether there are spheres at all: another program has its own columns only.
     has_spheres: bool,
     bins: usize,
@@ -68,28 +70,38 @@ impl Observer {
         // Comparison with the previous frame needs the same spheres in both.
         let tank = scene.tank.as_ref().filter(|_| !scene.has_flow());
         let tank_radius = tank.and_then(|tank| tank.radius);
+        let of_profile = tank_radius.filter(|_| output.records("profile"));
+        let of_rising = tank_radius.filter(|_| output.records("rising"));
         let mean_radius = radius.iter().sum::<f64>() / radius.len() as f64;
-        let (bins, bin_width) = tank_radius.map_or((0, 0.0), |tank_radius| {
+        let (bins, bin_width) = of_profile.map_or((0, 0.0), |tank_radius| {
             let natural = (tank_radius / (2.0 * mean_radius)).round() as usize;
             let bins = output.profile_bins.unwrap_or(natural).max(1);
             (bins, tank_radius / bins as f64)
         });
-        let distances: Vec<f64> = tank_radius.map_or_else(Vec::new, |tank_radius| {
+        let distances: Vec<f64> = of_rising.map_or_else(Vec::new, |tank_radius| {
             let within = |share: &f64| share * tank_radius;
             output.rise_radii.iter().map(within).collect()
         });
         let further = SphereColumns::new(scene, mean_radius);
+        // The sums of a group cost the same for one column as for all.
+        let any = |names: &[&str]| names.iter().any(|name| output.records(name));
+        let energies = ["kinetic", "rotational", "gravitational", "elastic"];
+        let about_axis = ["hole_radius", "rotation", "air_speed_mean", "profile"];
+        let fluctuation = any(&["fluctuation", "rising"]);
+        let has_axis = !scene.has_flow()
+            && (tank_radius.is_some() || scene.dem.effects.swirl.is_some())
+            && (fluctuation || any(&about_axis));
         let per_frame = |speed: &f64| speed * scene.time.frame_interval;
         Self {
             gravity: scene
                 .gravity_in_fluid()
                 .map_or([0.0; 2], |it| it.components()),
             inertial_factor: scene.inertial_factor(),
-            has_axis: !scene.has_flow()
-                && (tank_radius.is_some() || scene.dem.effects.swirl.is_some()),
-            has_air: scene.dem.effects.swirl.is_some(),
+            has_axis,
+            has_air: has_axis && scene.dem.effects.swirl.is_some(),
+            has_fluctuation: has_axis && fluctuation,
             has_contacts: scene.dem.contact.is_some(),
-            has_energies: scene.spot.is_none(),
+            has_energies: scene.spot.is_none() && (output.ledger || any(&energies)),
             has_spheres: !scene.is_external(),
             air_rotation: scene
                 .dem
@@ -103,7 +115,7 @@ impl Observer {
             distances,
             second: ((1.0 / scene.time.frame_interval).round() as usize).max(1),
             observations: Observations {
-                own: further.declared().map(Into::into).collect(),
+                own: further.declared().collect(),
                 ..Observations::default()
             },
             further,
@@ -177,7 +189,7 @@ impl Observer {
         self.profile.resize(start + self.bins, f32::NAN);
         let mut totals = Totals::default();
         frame.show(&mut |block| {
-            totals.add(block, self.gravity);
+            totals.add(block, self.has_energies.then_some(self.gravity));
             if self.has_axis {
                 find_distances(block, &mut self.distance);
                 totals.add_about_axis(block, &self.distance);
@@ -295,7 +307,7 @@ impl Observer {
 
     /// Computes what depends on means. All of it refers to the axis.
     fn second_look(&mut self, frame: &dyn Frame, means: &Means) {
-        if !self.has_axis {
+        if !self.has_fluctuation {
             return;
         }
         let (rotation, rise) = (means.rotation, means.rise);

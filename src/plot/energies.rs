@@ -13,7 +13,9 @@ pub(super) fn over_the_grid() -> Figure {
     const NAME: &str = "energies";
     let description = "mean energies of a sphere over time: the whole run and its first second";
     let draw = |runs: &Runs<'_>| draw(NAME, runs, false);
-    Figure::of_runs(NAME, description, &choice::CORNERS, draw).for_families([&TANK])
+    Figure::of_runs(NAME, description, &choice::CORNERS, draw)
+        .for_families([&TANK])
+        .of_columns(&ENERGIES)
 }
 
 /// Energies of every state (figure 12).
@@ -27,7 +29,11 @@ pub(super) fn of_every_state() -> Figure {
         draw,
     )
     .for_families([&TANK])
+    .of_columns(&ENERGIES)
 }
+
+/// The columns of these energies.
+const ENERGIES: [&str; 3] = ["kinetic", "rotational", "gravitational"];
 
 /// The part of a run that is shown larger (s).
 const BEGIN: f64 = 1.0;

@@ -7,6 +7,7 @@ use super::{ablation, accuracy, beverloo, critical_rotation, drainage, energies,
 use super::{measures, net_force, phase, refined, speeds, stability, states, tracks, verification};
 use crate::classify::Family;
 use crate::record::{Program, RunRecord};
+use crate::scene::Output;
 use std::sync::LazyLock;
 
 /// A figure.
@@ -17,6 +18,8 @@ pub struct Figure {
     pub description: String,
     /// The families of scenes that it is for; empty if it is for all.
     pub families: Vec<&'static Family>,
+    /// The usual columns of records that it shows.
+    pub columns: &'static [&'static str],
     /// What it is drawn from, and how.
     pub(super) draw: Draw,
 }
@@ -79,6 +82,7 @@ impl Figure {
             name,
             description: description.into(),
             families: Vec::new(),
+            columns: &[],
             draw,
         }
     }
@@ -141,9 +145,36 @@ impl Figure {
         Self { families, ..self }
     }
 
+    /// The same with the usual columns of records that it shows.
+    pub(super) fn of_columns(self, columns: &'static [&'static str]) -> Self {
+        Self { columns, ..self }
+    }
+
+    /// Which column that the figure shows is not recorded with this output.
+    pub fn lacks(&self, output: &Output) -> Option<&'static str> {
+        let mut columns = self.columns.iter();
+        columns.find(|name| !output.records(name)).copied()
+    }
+
+    /// Refuses records of a scene without what the figure shows.
+    pub(super) fn check_columns(&self, output: &Output) -> Result<(), PlotError> {
+        match self.lacks(output) {
+            None => Ok(()),
+            Some(column) => Err(PlotError::nothing(format_args!(
+                "the figure `{}` shows `{column}`, and the scene records only the columns that \
+                 `output.usual` names; add it there and run the scene again",
+                self.name
+            ))),
+        }
+    }
+
     /// Whether the figure can be drawn of scenes of a family.
     pub fn applies_to(&self, family: &Family) -> bool {
-        let is_own = |own: &&Family| *own == family || family.extends(own);
+        // What runs did can be shown whatever their labels are.
+        let is_of_runs = matches!(self.draw, Draw::Runs { .. });
+        let is_own = |own: &&Family| {
+            *own == family || family.extends(own) || (is_of_runs && family.is_made_of(own))
+        };
         self.families.is_empty() || self.families.iter().any(is_own)
     }
 

@@ -205,7 +205,12 @@ fn draw_sweep(name: &str, source: &Source<'_>) -> Result<Svg, PlotError> {
     figure.check_options(source.times.is_some(), false)?;
     match &figure.draw {
         Draw::Sweep(draw) => draw(source),
-        Draw::Runs { default, draw, .. } => draw(&Runs::of_sweep(source, default)?),
+        Draw::Runs { default, draw, .. } => {
+            for scene in source.sweep.scenes() {
+                figure.check_columns(&scene.output)?;
+            }
+            draw(&Runs::of_sweep(source, default)?)
+        }
         Draw::Record(_) | Draw::Study(_) => Err(PlotError::no_points(name)),
     }
 }
@@ -218,10 +223,18 @@ fn draw_records(name: &str, records: &RecordSet<'_>) -> Result<Svg, PlotError> {
     };
     let check = || figure.check_options(records.times.is_some(), !records.data.is_empty());
     match (&figure.draw, records.records) {
-        (Draw::Record(draw), [record]) => check().and_then(|()| draw(record)),
+        (Draw::Record(draw), [record]) => {
+            check()?;
+            figure.check_columns(&record.scene.output)?;
+            draw(record)
+        }
         (Draw::Runs { draw, .. }, _) => {
             let runs = Runs::of_records(records)?;
-            check().and_then(|()| draw(&runs))
+            check()?;
+            for record in records.records {
+                figure.check_columns(&record.scene.output)?;
+            }
+            draw(&runs)
         }
         _ => Err(PlotError::request(format_args!(
             "the figure `{name}` is of one record: give them one by one"

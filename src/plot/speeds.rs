@@ -20,6 +20,7 @@ pub(super) fn figure() -> Figure {
         draw,
     )
     .for_families([&TANK])
+    .of_columns(&["speed_mean", "air_speed_mean"])
 }
 
 fn draw(runs: &Runs<'_>) -> Result<Svg, PlotError> {

@@ -56,7 +56,7 @@ pub use error::RefineError;
 pub use gap::Gap;
 pub use lattice::{AxisScale, Lattice, LatticeAxis};
 pub use map::ProbabilityMap;
-pub use observations::{Observations, Training, Trial};
+pub use observations::{Finding, Observations, Training, Trial};
 pub(crate) use rounds::start;
 pub use rounds::{Finish, Round, Rounds, probabilities};
 pub use settings::{ModelKind, Settings};

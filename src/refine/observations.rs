@@ -3,6 +3,7 @@
 use super::{Code, Lattice, RefineError};
 use serde::{Deserialize, Serialize};
 use std::cmp::Ordering;
+use std::ops::Range;
 
 /// A run: its place and its seed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -28,11 +29,30 @@ impl Trial {
     }
 }
 
+/// What was found of a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Finding {
+    /// Its label.
+    pub label: Code,
+    /// How clearly the rule of each label holds, by the codes of these labels in the order in which
+    /// rules decide: above 0 if it does. Empty if there are no rules or nothing is known.
+    pub margins: Vec<(Code, f64)>,
+}
+
+impl From<Code> for Finding {
+    fn from(label: Code) -> Self {
+        Self {
+            label,
+            margins: Vec::new(),
+        }
+    }
+}
+
 /// Runs and their labels, ordered by place and seed: nothing depends on the order in which runs
 /// finish.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Observations {
-    runs: Vec<(Trial, Code)>,
+    runs: Vec<(Trial, Finding)>,
 }
 
 impl Observations {
@@ -45,15 +65,16 @@ impl Observations {
     ///
     /// # Errors
     /// If the run is known with another label.
-    pub fn add(&mut self, run: Trial, label: Code) -> Result<(), RefineError> {
+    pub fn add(&mut self, run: Trial, found: impl Into<Finding>) -> Result<(), RefineError> {
+        let found = found.into();
         match self.runs.binary_search_by(|(other, _)| other.order(&run)) {
-            Ok(index) if self.runs[index].1 == label => Ok(()),
+            Ok(index) if self.runs[index].1.label == found.label => Ok(()),
             Ok(index) => {
-                let labels = [self.runs[index].1, label];
+                let labels = [self.runs[index].1.label, found.label];
                 Err(RefineError::contradiction(&run.values, run.seed, labels))
             }
             Err(index) => {
-                self.runs.insert(index, (run, label));
+                self.runs.insert(index, (run, found));
                 Ok(())
             }
         }
@@ -61,8 +82,13 @@ impl Observations {
 
     /// The label of a run, if it is known.
     pub fn label(&self, run: &Trial) -> Option<Code> {
+        self.found(run).map(|found| found.label)
+    }
+
+    /// What was found of a run, if it is known.
+    pub fn found(&self, run: &Trial) -> Option<&Finding> {
         let place = self.runs.binary_search_by(|(other, _)| other.order(run));
-        place.ok().map(|place| self.runs[place].1)
+        place.ok().map(|place| &self.runs[place].1)
     }
 
     /// Number of runs.
@@ -77,7 +103,7 @@ impl Observations {
 
     /// Runs and labels, by place and seed.
     pub fn iter(&self) -> impl Iterator<Item = (&Trial, Code)> {
-        self.runs.iter().map(|(run, label)| (run, *label))
+        self.runs.iter().map(|(run, found)| (run, found.label))
     }
 }
 
@@ -88,6 +114,7 @@ pub struct Training {
     units: Vec<f64>,
     codes: Vec<Code>,
     labels: Vec<usize>,
+    margins: Vec<Vec<(Code, f64)>>,
 }
 
 impl Training {
@@ -113,7 +140,48 @@ impl Training {
             units,
             labels: labels.collect(),
             codes,
+            margins: runs
+                .runs
+                .iter()
+                .map(|(_, found)| found.margins.clone())
+                .collect(),
         })
+    }
+
+    /// Only these runs.
+    pub(super) fn only(&self, runs: &[usize]) -> Self {
+        Self {
+            axes: self.axes,
+            units: runs
+                .iter()
+                .flat_map(|run| self.unit(*run))
+                .copied()
+                .collect(),
+            codes: self.codes.clone(),
+            labels: runs.iter().map(|run| self.labels[*run]).collect(),
+            margins: runs.iter().map(|run| self.margins[*run].clone()).collect(),
+        }
+    }
+
+    /// The same runs with other labels.
+    pub(super) fn relabelled(&self, code_of: impl Fn(usize) -> Code) -> Self {
+        let own: Vec<Code> = (0..self.runs()).map(code_of).collect();
+        let mut codes = own.clone();
+        codes.sort_unstable();
+        codes.dedup();
+        let labels = own.iter();
+        let labels = labels.map(|own| codes.partition_point(|code| code < own));
+        Self {
+            labels: labels.collect(),
+            codes,
+            ..self.clone()
+        }
+    }
+
+    /// The margins of runs: of each rule in the order in which rules decide, by the code of its
+    /// label. Empty for a run without margins.
+    pub(super) fn margins(&self, runs: Range<usize>) -> impl Iterator<Item = &[(Code, f64)]> {
+        self.margins[runs].iter().map(Vec::as_slice)
     }
 
     /// Number of axes.

@@ -2,7 +2,7 @@
 
 use super::choice::CandidatePlaces;
 use super::observations::Training;
-use super::{Code, Lattice, Observations, ProbabilityMap, RefineError, Settings, Trial, widths};
+use super::{Finding, Lattice, Observations, ProbabilityMap, RefineError, Settings, Trial, widths};
 use serde::{Deserialize, Serialize};
 
 /// Why no more runs are made.
@@ -27,8 +27,13 @@ pub fn probabilities(
     settings: &Settings,
 ) -> Result<ProbabilityMap, RefineError> {
     let training = Training::new(lattice, runs)?;
-    let fitted = settings.model.model().fit(&training);
-    Ok(ProbabilityMap::new(lattice, training.codes(), &*fitted))
+    let model = settings.model.model();
+    let fitted = model.fit(&training);
+    Ok(ProbabilityMap::new(
+        lattice,
+        &model.codes(&training),
+        &*fitted,
+    ))
 }
 
 /// The runs of the coarse grid, in the order of the lattice: values of each axis at equal steps of
@@ -99,13 +104,14 @@ impl Rounds {
         })
     }
 
-    /// Learns the label of a run: one of a round, or one that was made before the first round.
+    /// Learns what was found of a run, which is its label at least: of one of a round, or of one
+    /// that was made before the first round.
     ///
     /// # Errors
     /// If the run is known with another label.
-    pub fn learn(&mut self, run: Trial, label: Code) -> Result<(), RefineError> {
+    pub fn learn(&mut self, run: Trial, found: impl Into<Finding>) -> Result<(), RefineError> {
         self.map = None;
-        self.runs.add(run, label)
+        self.runs.add(run, found)
     }
 
     /// The next round: the runs of the coarse grid that are missing, or else runs where the label

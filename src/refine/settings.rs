@@ -1,7 +1,7 @@
 //! How a sweep is refined.
 
 use super::RefineError;
-use super::model::{LabelModel, Propagation, Regression};
+use super::model::{LabelModel, Margins, Propagation, Regression};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -45,6 +45,8 @@ pub struct Settings {
 pub enum ModelKind {
     /// Gaussian process regression.
     Regression,
+    /// Gaussian process regression of the margins of rules, where labels are by rules alone.
+    Margins,
     /// Gaussian process classification by expectation propagation.
     #[default]
     Propagation,
@@ -52,12 +54,13 @@ pub enum ModelKind {
 
 impl ModelKind {
     /// All of them.
-    pub const ALL: [Self; 2] = [Self::Regression, Self::Propagation];
+    pub const ALL: [Self; 3] = [Self::Regression, Self::Margins, Self::Propagation];
 
     /// Its name, as in a sweep file.
     pub fn name(self) -> &'static str {
         match self {
             Self::Regression => "regression",
+            Self::Margins => "margins",
             Self::Propagation => "propagation",
         }
     }
@@ -66,6 +69,7 @@ impl ModelKind {
     pub fn model(self) -> &'static dyn LabelModel {
         match self {
             Self::Regression => &Regression,
+            Self::Margins => &Margins,
             Self::Propagation => &Propagation,
         }
     }

@@ -26,4 +26,17 @@ impl Condition {
     pub fn evaluate(&self, run: &dyn Values, window: Range<usize>) -> Evidence {
         evidence(&self.test, &Frames::new(run, &self.needs, window))
     }
+
+    /// Its evidence for a run from each of several windows, whose columns are read once.
+    pub fn evaluate_each<'a>(
+        &'a self,
+        run: &'a dyn Values,
+        windows: impl IntoIterator<Item = Range<usize>> + 'a,
+    ) -> impl Iterator<Item = Evidence> + 'a {
+        let mut frames = Frames::new(run, &self.needs, 0..0);
+        windows.into_iter().map(move |window| {
+            frames.look_at(window);
+            evidence(&self.test, &frames)
+        })
+    }
 }

@@ -1,9 +1,11 @@
 //! From a scene file to a scene.
 
 use super::Edits;
+use crate::classify::Rules;
 use crate::dem::SAFETY_FACTOR;
-use crate::document::{Document, LoadError, Problem};
-use crate::scene::{AUTO, Change, FileKind, SCENE, Scene, in_start_file, settings};
+use crate::document::{Document, LoadError, Problem, one_of, suggest};
+use crate::observe::Observations;
+use crate::scene::{AUTO, Change, FileKind, SCENE, Scene, UsualColumns, in_start_file, settings};
 use serde_json::Value;
 use std::path::Path;
 
@@ -56,9 +58,8 @@ impl Scene {
         if !problems.is_empty() {
             return Err(refuse(problems));
         }
-        let mut scene = base_of_tree(&tree, document.folder(), Reading::RUN).map_err(refuse)?;
-        scene.time.safety_factor = None;
-        Ok(scene)
+        let scene = base_of_tree(&tree, document.folder(), Reading::RUN).map_err(refuse)?;
+        Ok(to_be_run(scene))
     }
 
     /// Like [`load`](Self::load), with `text` as the content of the file `path`.
@@ -123,9 +124,15 @@ pub(crate) fn load_base_with(path: &Path, reading: Reading) -> Result<Scene, Loa
 }
 
 fn of_document(document: &Document) -> Result<Scene, LoadError> {
-    let mut scene = base_of_document(document, Reading::RUN)?;
+    let scene = base_of_document(document, Reading::RUN)?;
+    Ok(to_be_run(scene))
+}
+
+/// A scene that is not varied.
+fn to_be_run(mut scene: Scene) -> Scene {
     scene.time.safety_factor = None;
-    Ok(scene)
+    Rules::of(&scene).choose_columns(&mut scene);
+    scene
 }
 
 pub(crate) fn base_of_document(document: &Document, reading: Reading) -> Result<Scene, LoadError> {
@@ -216,10 +223,41 @@ fn base_with_files(
         let safety_factor = *scene.time.safety_factor.get_or_insert(SAFETY_FACTOR);
         scene = scene.with_chosen_step_in_range()?;
         scene.time.safety_factor = Some(safety_factor);
-        return Ok(scene);
+        return with_rules(scene);
     }
     match (reading.check)(&scene) {
-        problems if problems.is_empty() => Ok(scene),
+        problems if problems.is_empty() => with_rules(scene),
         problems => Err(problems),
     }
+}
+
+/// The same with the columns that the scene's own rules read.
+fn with_rules(mut scene: Scene) -> Result<Scene, Vec<Problem>> {
+    let rules = Rules::of(&scene);
+    let mut problems = rules.problems(&scene, &[]);
+    problems.extend(unknown_columns(&scene));
+    if !problems.is_empty() {
+        return Err(problems);
+    }
+    rules.ask_for_columns(&mut scene);
+    Ok(scene)
+}
+
+/// Names of usual columns that no scene has.
+fn unknown_columns(scene: &Scene) -> Vec<Problem> {
+    let UsualColumns::Named(names) = &scene.output.usual else {
+        return Vec::new();
+    };
+    let unknown = names.iter().enumerate();
+    let unknown = unknown.filter(|(_, name)| !Observations::is_usual(name));
+    let problems = unknown.map(|(place, name)| {
+        let known = Observations::COLUMNS.iter().map(|column| column.name);
+        let path = format!("output.usual[{place}]");
+        let help = match suggest(name, known.clone()) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => format!("those are {}", one_of(known)),
+        };
+        Problem::new(path, format!("there is no usual column `{name}`")).help(help)
+    });
+    problems.collect()
 }

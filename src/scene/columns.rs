@@ -133,10 +133,7 @@ impl FurtherColumn {
 
     /// Why runs of this scene cannot have it, if they cannot.
     pub fn absent_in(self, scene: &Scene) -> Option<&'static str> {
-        let still = || {
-            let why = "in a scene of spots velocities are no more than mean displacements";
-            scene.spot.is_some().then_some(why)
-        };
+        let still = || apart_from_spots(scene);
         let apart = || {
             let why = "spheres touch only in a scene with [contact]";
             scene.dem.contact.is_none().then_some(why)
@@ -162,12 +159,25 @@ impl FurtherColumn {
     }
 }
 
+/// Why velocities of a scene do not describe motion, if they do not.
+pub(super) fn apart_from_spots(scene: &Scene) -> Option<&'static str> {
+    let why = "in a scene of spots velocities are no more than mean displacements";
+    scene.spot.is_some().then_some(why)
+}
+
+/// Why a layer of a scene has no known volume, if it has none.
+pub(super) fn without_area(scene: &Scene) -> Option<&'static str> {
+    let area = scene.tank.as_ref().and_then(|tank| tank.area());
+    let why = "a layer has a volume only in a tank with `radius`, or `width` and `depth`";
+    (scene.spheres.shape == Shape::Disc || area.is_none()).then_some(why)
+}
+
 /// Why a scene has no layer of known volume, if it has none.
 fn without_layer(scene: &Scene) -> Option<&'static str> {
-    let tank = scene.tank.as_ref();
-    if scene.spheres.shape == Shape::Disc || tank.and_then(|tank| tank.area()).is_none() {
-        return Some("a layer has a volume only in a tank with `radius`, or `width` and `depth`");
+    if let Some(why) = without_area(scene) {
+        return Some(why);
     }
+    let tank = scene.tank.as_ref();
     let has_floor = tank.is_some_and(|tank| tank.floor.is_some());
     let why = "a tank without a floor has a layer only with `output.layer`";
     (!has_floor && scene.output.layer.is_none()).then_some(why)

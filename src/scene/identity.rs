@@ -76,7 +76,7 @@ fn identity(keys: &impl Serialize) -> String {
 
 impl Scene {
     /// Sixteen hexadecimal digits that stand for everything that determines the motion: all keys
-    /// except `title`, `neighbours` and `output`, and the form of the laws. Runs of equal identity
+    /// except `title`, `neighbours`, `label`, `measure` and `output`, and the form of the laws. Runs of equal identity
     /// have equal bits. Every random number of a run derives from the identity (without the form of
     /// a law).
     pub fn identity(&self) -> String {
@@ -131,6 +131,8 @@ impl Scene {
             accuracy: _,
             time,
             steady,
+            labels: _,
+            measures: _,
             output: _,
         } = self;
         let DemScene {

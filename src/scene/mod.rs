@@ -15,8 +15,10 @@ mod fluid;
 mod identity;
 mod keys;
 mod output;
+mod profiles;
 mod program;
 mod radius;
+mod rules;
 pub(crate) mod settings;
 mod simplified;
 mod spheres;
@@ -44,13 +46,15 @@ pub use file_kind::FileKind;
 pub(crate) use files::in_start_file;
 pub use keys::Notation;
 pub(crate) use keys::{leaf, may_hold};
-pub use output::{Layer, Output};
+pub use output::{Layer, Output, UsualChoice, UsualColumns};
+pub use profiles::{ColumnProfile, ProfileAxis, ProfiledQuantity};
 use program::absent;
 pub use program::{
     DescribedColumn, ExternalProgram, FilledProgram, Keep, ProgramColumn, ProgramParameters,
     ProgramResume, ProgramStates, ProgramTable, TableFormat, TemplateFile, TemplateText,
 };
 pub use radius::{Radii, RadiusShare};
+pub use rules::{LabelRule, MeasureRule, RuleWindow};
 pub use spheres::{Shape, Spheres};
 pub(crate) use spot::STICKING_OUT;
 pub use spot::{RelaxationMethod, Spot, SpotRelaxation, SpotSchedule, SpotWalk, SpotWeighting};
@@ -124,6 +128,13 @@ pub struct Scene {
     /// When the run counts as steady and ends. Absent: it ends at its duration.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub steady: Option<Steady>,
+    /// Labels by rules, in place of those of the sieves: the first whose condition holds is the
+    /// run's.
+    #[serde(default, rename = "label", skip_serializing_if = "Vec::is_empty")]
+    pub labels: Vec<LabelRule>,
+    /// What is measured of the run besides, by rules.
+    #[serde(default, rename = "measure", skip_serializing_if = "Vec::is_empty")]
+    pub measures: Vec<MeasureRule>,
     /// Data stored in addition to the observables of every frame. Never changes the motion.
     #[serde(default)]
     pub output: Output,
@@ -209,6 +220,8 @@ impl Scene {
             accuracy: None,
             time,
             steady: None,
+            labels: Vec::new(),
+            measures: Vec::new(),
             output: Output::default(),
         }
     }

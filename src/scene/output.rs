@@ -1,6 +1,6 @@
 //! What a run stores.
 
-use super::{FurtherColumn, is_default};
+use super::{ColumnProfile, FurtherColumn, is_default};
 use crate::document::quantities::place;
 use crate::document::{quantity, unit};
 use schemars::JsonSchema;
@@ -19,10 +19,16 @@ pub struct Output {
     /// integrator's error.
     #[serde(skip_serializing_if = "is_default")]
     pub ledger: bool,
+    /// Which of the usual columns of the scene are recorded.
+    #[serde(skip_serializing_if = "is_default")]
+    pub usual: UsualColumns,
     /// Further columns, which cost time only in runs that ask for them. Columns that the labels and
     /// measures of a sweep file read are asked for by this.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub columns: Vec<FurtherColumn>,
+    /// Profiles over height or radius, whose bins are further columns.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub profiles: Vec<ColumnProfile>,
     /// The layer in which columns such as `pressure` are measured. Absent: from the floor to twice
     /// the mean height of the centres above it, which is the height of a uniform bed.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -47,7 +53,9 @@ impl Default for Output {
             snapshot_interval: 1.0,
             trajectory: false,
             ledger: false,
+            usual: UsualColumns::default(),
             columns: Vec::new(),
+            profiles: Vec::new(),
             layer: None,
             profile_bins: None,
             rise_speeds: vec![5.0, 10.0, 20.0],
@@ -65,14 +73,63 @@ impl Output {
         }
     }
 
-    /// Whether a record with this output has all that `wanted` asks for: it may have further
-    /// columns that are not asked for any more.
+    /// Whether the usual column of this name is recorded, if runs of the scene have it.
+    pub fn records(&self, name: &str) -> bool {
+        match &self.usual {
+            UsualColumns::Word(_) => true,
+            UsualColumns::Named(names) => names.iter().any(|it| it == name),
+        }
+    }
+
+    /// Whether a record with this output has all that `wanted` asks for: it may have columns that
+    /// are not asked for any more.
     pub(crate) fn holds(&self, wanted: &Self) -> bool {
         let apart = |output: &Self| Self {
+            usual: UsualColumns::default(),
             columns: Vec::new(),
+            profiles: Vec::new(),
             ..output.clone()
         };
-        apart(self) == apart(wanted) && wanted.columns.iter().all(|it| self.columns.contains(it))
+        let has_usual = match (&self.usual, &wanted.usual) {
+            (UsualColumns::Word(_), _) => true,
+            (UsualColumns::Named(_), UsualColumns::Word(_)) => false,
+            (UsualColumns::Named(_), UsualColumns::Named(names)) => {
+                names.iter().all(|it| self.records(it))
+            }
+        };
+        let mut further = wanted.columns.iter();
+        let mut profiles = wanted.profiles.iter();
+        apart(self) == apart(wanted)
+            && has_usual
+            && further.all(|it| self.columns.contains(it))
+            && profiles.all(|it| self.profiles.contains(it))
+    }
+}
+
+/// Which of the usual columns are recorded. Figures and sieves that read others cannot be had
+/// without running again.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum UsualColumns {
+    /// By a word.
+    Word(UsualChoice),
+    /// These, and those that rules read.
+    Named(Vec<String>),
+}
+
+/// Which of the usual columns are recorded, in a word.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum UsualChoice {
+    /// All that runs of the scene have.
+    All,
+    /// Only those that its labels and measures read: of rules alone their columns, of sieves all.
+    Needed,
+}
+
+impl Default for UsualColumns {
+    fn default() -> Self {
+        Self::Word(UsualChoice::All)
     }
 }
 

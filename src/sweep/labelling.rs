@@ -4,7 +4,7 @@ use super::{Folder, Job, PlotSettings, Sweep, work};
 use crate::classify::{self, ClassifyError, Label, LabelRow, LabelTable, Sieves};
 use crate::document::differing_keys;
 use crate::refusal::Refusal;
-use crate::scene::ExternalProgram;
+use crate::scene::{ExternalProgram, Output, UsualColumns};
 use crate::store::{self, StoreError};
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::path::PathBuf;
@@ -285,7 +285,15 @@ impl Sweep {
             };
             runs.scene.title = None;
             for scene in runs.scenes_mut() {
-                scene.output.columns.clear();
+                let Output {
+                    usual,
+                    columns,
+                    profiles,
+                    ..
+                } = &mut scene.output;
+                *usual = UsualColumns::default();
+                columns.clear();
+                profiles.clear();
                 scene.program = scene.program.take().map(ExternalProgram::without_limits);
             }
             runs

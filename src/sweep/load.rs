@@ -2,7 +2,7 @@
 
 use super::refining::RefineEntry;
 use super::{PlotSettings, Sweep};
-use crate::classify::{ClassifyError, Family, LabelRule, MeasureRule, Rules, Sieves};
+use crate::classify::{ClassifyError, FAMILIES, Family, Rules, Sieves};
 use crate::document::{Document, LoadError, Problem, Schema, differing_keys, one_of, suggest};
 use crate::grid::{
     AxisEntry, PointScenes, SceneTree, SeedsEntry, VariantEntry, base_scene, check_axes,
@@ -10,7 +10,7 @@ use crate::grid::{
     expand_seeds, expand_variants, give_the_step_to_an_axis, or_path,
 };
 use crate::run::Reading;
-use crate::scene::{FileKind, Scene, settings};
+use crate::scene::{FileKind, LabelRule, MeasureRule, Scene, settings};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::Value;
@@ -45,14 +45,19 @@ pub(crate) struct SweepFile {
     seeds: Option<SeedsEntry>,
     /// Runs only where labels need them, in place of the whole grid. Absent: the whole grid is run.
     refine: Option<RefineEntry>,
+    /// The family of the scene, such as `tank`: its sieves label the runs of which no rule of this
+    /// file holds, and rules of the scene's own file do not count. Absent: rules alone, if there
+    /// are any.
+    labels: Option<String>,
     /// Thresholds of the sieves, which label the runs.
     #[serde(default)]
     sieves: Sieves,
-    /// Labels by rules of the file, in place of those of the sieves: the first whose condition
-    /// holds is the run's.
+    /// Labels by rules of the file, in place of those of the sieves and of the scene's own file:
+    /// the first whose condition holds is the run's.
     #[serde(default)]
     label: Vec<LabelRule>,
-    /// What is measured of each run besides, by rules of the file.
+    /// What is measured of each run besides, by rules of the file, in place of those of the scene's
+    /// own file.
     #[serde(default)]
     measure: Vec<MeasureRule>,
     /// What the phase diagram shows.
@@ -122,11 +127,13 @@ pub(crate) fn of_document(document: &Document) -> Result<Sweep, LoadError> {
             rules: Rules {
                 labels: file.label,
                 measures: file.measure,
+                sieves: file.labels.is_some(),
             },
             ..file.sieves
         },
         plot: file.plot,
     };
+    problems.extend(problem_of_labels(file.labels.as_deref(), &sweep.scene));
     if file.axis.is_empty() && file.variant.is_empty() && file.seeds.is_none() {
         let help = "add [[axis]] with `key` and `values`; a single run needs no sweep";
         problems.push(Problem::new("", "the sweep varies nothing").help(help));
@@ -135,8 +142,11 @@ pub(crate) fn of_document(document: &Document) -> Result<Sweep, LoadError> {
     check_axes(&sweep.axes, &mut problems);
     check_sieves(&sweep, document.tree(), &mut problems);
     document.accept(&problems)?;
-    let rules = sweep.sieves.rules.clone();
-    sweep.scenes_mut().for_each(|it| rules.ask_for_columns(it));
+    let rules = rules_of(&mut sweep);
+    for scene in sweep.scenes_mut() {
+        rules.ask_for_columns(scene);
+        rules.choose_columns(scene);
+    }
     if let Some(refine) = &file.refine {
         refine.refine(&mut sweep, &mut problems);
         document.accept(&problems)?;
@@ -145,6 +155,41 @@ pub(crate) fn of_document(document: &Document) -> Result<Sweep, LoadError> {
     check_grid(&sweep, document, &mut problems);
     document.accept(&problems)?;
     Ok(sweep)
+}
+
+/// What is wrong with the family that the file names.
+fn problem_of_labels(named: Option<&str>, scene: &Scene) -> Option<Problem> {
+    let (named, family) = (named?, Family::of(scene));
+    if named == family.name {
+        return None;
+    }
+    let message = match FAMILIES.iter().any(|it| it.name == named) {
+        true => format!("the scene is a {}, and no {named}", family.name),
+        false => format!("`{named}` is no family of scenes"),
+    };
+    let help = match family.sieves.is_empty() {
+        true => "remove it: the scene has no sieves".to_owned(),
+        false => format!("use `labels = \"{}\"`, or remove it", family.name),
+    };
+    Some(Problem::new("labels", message).help(help))
+}
+
+/// The rules of a sweep, which are those of its scene's file where its own does not say any. Its
+/// scenes have none afterwards: other rules may label its runs later.
+fn rules_of(sweep: &mut Sweep) -> Rules {
+    let of_scene = Rules::of(&sweep.scene);
+    for scene in sweep.scenes_mut() {
+        scene.labels.clear();
+        scene.measures.clear();
+    }
+    let rules = &mut sweep.sieves.rules;
+    if rules.labels.is_empty() && !rules.sieves {
+        rules.labels = of_scene.labels;
+    }
+    if rules.measures.is_empty() {
+        rules.measures = of_scene.measures;
+    }
+    rules.clone()
 }
 
 /// Sieves must be those of the scene's family, and the spout sieve reads counts that the scene must
@@ -162,13 +207,18 @@ fn check_sieves(sweep: &Sweep, tree: &Value, problems: &mut Vec<Problem>) {
     }
     check_uses(sweep, problems);
     let family = Family::of(&sweep.scene);
-    let has_labels = !sweep.sieves.rules.labels.is_empty();
-    if has_labels && tree.get("sieves").is_some() {
+    let Rules { labels, sieves, .. } = &sweep.sieves.rules;
+    if !labels.is_empty() && !sieves && tree.get("sieves").is_some() {
         let problem = Problem::new(
             "sieves",
             "the labels of this file are those of its [[label]]",
         );
-        problems.push(problem.help("remove [sieves], or [[label]]").at_key());
+        let help = format!(
+            "remove [sieves], or [[label]]; or give `labels = \"{}\"`, and sieves label the runs of \
+             which no rule holds",
+            family.name
+        );
+        problems.push(problem.help(help).at_key());
     }
     let given = tree["sieves"].as_object().into_iter().flatten();
     let own: Vec<&str> = family.sieves.iter().map(|sieve| sieve.name).collect();

@@ -5,7 +5,8 @@ use super::{CaseFamily, MeasuredValues, VerifyError};
 use crate::dem::DemSimulation;
 use crate::observe::Observer;
 use crate::scene::{
-    DemScene, Effects, Friction, FurtherColumn, Layer, Output, Scene, StartSphere, Tank,
+    ColumnProfile, DemScene, Effects, Friction, FurtherColumn, Layer, Output, Scene, StartSphere,
+    Tank,
 };
 use crate::simulation::Simulation;
 use serde::Deserialize;
@@ -24,6 +25,9 @@ pub struct Columns {
     tank: Option<Tank>,
     /// The layer of columns that have one. Absent: the whole bed.
     layer: Option<Layer>,
+    /// Profiles, whose bins are quantities too.
+    #[serde(default)]
+    profiles: Vec<ColumnProfile>,
     /// Friction. Absent: none, and no spins.
     friction: Option<Friction>,
     /// Gravity (m/s2).
@@ -45,6 +49,7 @@ impl CaseFamily for Columns {
         let expected = FurtherColumn::ALL.iter().copied();
         let output = Output {
             columns: expected.filter(|it| bench.expects(it.name())).collect(),
+            profiles: self.profiles.clone(),
             layer: self.layer,
             ..Output::default()
         };

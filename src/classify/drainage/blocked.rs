@@ -9,7 +9,8 @@ use crate::scene::Scene;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Threshold of the blocked sieve: an opening is blocked if no sphere left in the last window.
+/// Threshold of the blocked sieve: an opening is blocked if no sphere left in the last window,
+/// though some are over it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct BlockedSieve {
@@ -36,6 +37,8 @@ measures! {
         blocked_count: evidence("spheres in the last window", ""),
         /// 1/2 less that number: yes from 0 on.
         blocked_margin: evidence("margin of the blocked sieve", "").signed(),
+        /// Number of spheres over the opening at the end.
+        spheres_over_opening: evidence("spheres over the opening at the end", ""),
     }
 }
 
@@ -59,9 +62,11 @@ impl Sieve for BlockedSieve {
         let evidence = BlockedEvidence {
             blocked_count: Some(count),
             blocked_margin: Some(0.5 - count),
+            spheres_over_opening: run.over_opening(),
         };
+        let is_over = evidence.spheres_over_opening != Some(0.0);
         Sifted {
-            label: if_yes(Label::BLOCKED, evidence.blocked_margin),
+            label: if_yes(Label::BLOCKED, evidence.blocked_margin).filter(|_| is_over),
             values: evidence.values(),
         }
     }

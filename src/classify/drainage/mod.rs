@@ -1,20 +1,17 @@
 //! Drainage of a box through an opening in its floor: what leaves, and what stays in the corners.
 
 pub(super) mod blocked;
-pub(super) mod drained;
 mod order;
 pub(super) mod run;
-pub(super) mod stagnant;
 #[cfg(test)]
 mod tests;
 
 pub use blocked::BlockedSieve;
-pub use drained::DrainedSieve;
-pub use stagnant::StagnantSieve;
 
 pub(super) use run::DrainageRun;
 
 use super::lengths::check_lengths;
+use super::rules::rule;
 use super::sieve::values;
 use super::sieves::DRAINAGE_SIEVES;
 use super::{ClassifyError, Family, Label, Sieves};
@@ -25,6 +22,18 @@ use order::DrainageOrder;
 /// Scenes of a box with an opening in its floor.
 pub static DRAINAGE: Family = Family {
     name: "drainage",
+    rules: &[
+        rule!(
+            Label::EMPTIED,
+            "drained",
+            "left_share >= 0.95 or spheres_over_opening == 0"
+        ),
+        rule!(
+            Label::STAGNANT_CORNERS,
+            "stagnant",
+            "blocked_count > 0 and stagnant_height >= 6 * spheres.radius"
+        ),
+    ],
     sieves: DRAINAGE_SIEVES,
     without_sieve: &[Label::UNSTABLE, Label::DRAINING],
     order: DrainageOrder::MEASURES,
@@ -32,15 +41,20 @@ pub static DRAINAGE: Family = Family {
     takes: |scene| scene.tank.as_ref().and_then(Tank::opening).is_some(),
     check: |_, _| Ok(()),
     judge,
-    rules: None,
+    measured: &[],
+    base: None,
 };
 
 impl Label {
+    /// Spheres leave, and others at the side walls, up to three diameters above the floor, have not
+    /// sunk.
+    pub const STAGNANT_CORNERS: Self = Self::new(11, "stagnant-corners", 0x98_2c_74);
+
     /// Spheres leave when the run ends, and no corner is stagnant.
     pub const DRAINING: Self = Self::new(10, "draining", 0x3f_92_d2);
 }
 
-/// The first sieve that says yes decides.
+/// Blocked or draining: rules decide before.
 fn judge(record: &RunRecord, sieves: &Sieves) -> Result<(Label, Vec<Option<f64>>), ClassifyError> {
     check_lengths(record)?;
     let mut run = DrainageRun::new(record);

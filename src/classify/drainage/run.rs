@@ -53,16 +53,15 @@ impl<'a> DrainageRun<'a> {
         self.left() - f64::from(before.unwrap_or(0.0))
     }
 
-    /// Whether no sphere is over the opening at the end.
-    pub(super) fn nothing_can_leave(&self) -> bool {
-        let Some(end) = self.snapshots.last() else {
-            return false;
-        };
+    /// Number of spheres over the opening at the end; none without a snapshot.
+    pub(super) fn over_opening(&self) -> Option<f64> {
+        let end = self.snapshots.last()?;
         let is_over = |row: ndarray::ArrayView1<'_, f64>| match self.is_round {
             true => row[0] * row[0] + row[1] * row[1] < self.opening * self.opening,
             false => row[0].abs() < self.opening,
         };
-        !end.position.rows().into_iter().any(is_over)
+        let over = end.position.rows().into_iter().filter(|row| is_over(*row));
+        Some(over.count() as f64)
     }
 
     /// Height of the stagnant zone at the side walls above the floor (m), from first to last

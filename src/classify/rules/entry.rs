@@ -1,42 +1,6 @@
-//! Labels and measures as a file states them.
+//! Names and colours of labels and measures in a file.
 
-use super::window::RuleWindow;
 use crate::document::Problem;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
-/// A label that a rule gives.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct LabelRule {
-    /// Name in tables and figures: small letters, digits and `-`.
-    pub name: String,
-    /// The condition, such as `min(height_mean) > 3 * spheres.radius`. The first label whose
-    /// condition holds is the run's; without one it is `other`.
-    pub when: String,
-    /// The part of the run that counts. Absent: the whole run.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub over: Option<RuleWindow>,
-    /// Colour in figures, such as `"#b03a2e"`. Absent: the next of a palette.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub color: Option<String>,
-}
-
-/// A number of each run that a rule measures.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct MeasureRule {
-    /// Name of its column in `labels.csv`: small letters, digits and `_`.
-    pub name: String,
-    /// The number, such as `max(height_mean) / spheres.radius`.
-    pub value: String,
-    /// The part of the run that counts. Absent: the whole run.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub over: Option<RuleWindow>,
-    /// What figures call it. Absent: its name.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub quantity: Option<String>,
-}
 
 /// Longest name.
 const LONGEST_NAME: usize = 40;

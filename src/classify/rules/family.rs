@@ -1,12 +1,13 @@
-//! The family of scenes that rules make: labels, measures, and the rules as they are evaluated.
+//! The family of scenes that rules of a file make.
 
 use super::names::SceneNames;
-use super::{LabelRule, MeasureRule, RuleWindow, Rules, condition, entry, judge, number};
+use super::of_family::{LabelOfRule, MeasureOfRule};
+use super::{Rules, entry, number};
 use crate::classify::measure::{evidence, measured};
 use crate::classify::{Family, Label, Measure};
 use crate::color::{self, DISTINCT};
-use crate::rule::{Condition, ExpressionError, Number, Unit};
-use crate::scene::Scene;
+use crate::rule::{ExpressionError, Unit};
+use crate::scene::{LabelRule, MeasureRule, Scene};
 use std::sync::{Mutex, PoisonError};
 
 /// Columns of tables that are no measures.
@@ -20,7 +21,7 @@ pub(super) const RESERVED: [&str; 7] = [
     "seeds",
 ];
 
-/// Codes of the labels that rules give begin here.
+/// Codes of the labels that rules of a file give begin here.
 const FIRST_CODE: i8 = 20;
 
 impl Label {
@@ -28,32 +29,12 @@ impl Label {
     pub const OTHER: Self = Self::new(13, "other", 0xe6_e2_f7);
 }
 
-/// The rules of a family, ready to be evaluated.
-pub(in crate::classify) struct PreparedRules {
-    base: &'static Family,
-    pub(super) labels: Vec<Prepared<Label, Condition>>,
-    pub(super) measures: Vec<Prepared<(), Number>>,
-}
-
-impl PreparedRules {
-    /// Whether they only add measures to those of a family.
-    pub(in crate::classify) fn extends(&self, family: &Family) -> bool {
-        self.labels.is_empty() && self.base == family
-    }
-}
-
-/// A rule, and what it gives.
-pub(super) struct Prepared<G, E> {
-    pub(super) gives: G,
-    pub(super) name: String,
-    pub(super) expression: E,
-    pub(super) over: Option<RuleWindow>,
-}
-
 /// The columns of a label's evidence.
-pub(super) fn columns_of(rule: &LabelRule) -> [String; 3] {
+pub(super) fn columns_of(rule: &LabelRule) -> impl Iterator<Item = String> {
     let name = rule.name.replace('-', "_");
-    ["value", "threshold", "margin"].map(|what| format!("{name}_{what}"))
+    let since = rule.over.is_some().then_some("since");
+    let parts = ["value", "threshold", "margin"].into_iter().chain(since);
+    parts.map(move |what| format!("{name}_{what}"))
 }
 
 /// A family that rules have made, and of what.
@@ -90,103 +71,107 @@ pub(in crate::classify) fn family(
 
 fn make(rules: &Rules, base: &'static Family, scene: &Scene) -> Result<Family, ExpressionError> {
     let names = SceneNames::new(scene);
-    let labels = rules.labels.iter().enumerate();
-    let labels: Vec<Prepared<Label, Condition>> = labels
-        .map(|(place, rule)| {
-            Ok(Prepared {
-                gives: label(place, rule),
-                name: rule.name.clone(),
-                expression: condition(&rule.when, &names)?,
-                over: rule.over.clone(),
-            })
-        })
-        .collect::<Result<_, ExpressionError>>()?;
-    let measures: Vec<Prepared<(), Number>> = rules
+    let measured: Vec<MeasureOfRule> = rules
         .measures
         .iter()
-        .map(|rule| {
-            Ok(Prepared {
-                gives: (),
-                name: rule.name.clone(),
-                expression: number(&rule.value, &names)?,
-                over: rule.over.clone(),
-            })
-        })
+        .map(|rule| Ok(measure(rule, number(&rule.value, &names)?.unit())))
         .collect::<Result<_, ExpressionError>>()?;
-    let units = measures.iter().map(|it| it.expression.unit());
-    let mut order: Vec<Measure> = rules.labels.iter().flat_map(evidence_of).collect();
-    order.extend(rules.measures.iter().zip(units).map(measure));
-    let given = labels.iter().map(|it| it.gives);
-    let all = [Label::UNSTABLE, Label::OTHER].into_iter().chain(given);
-    let all: Vec<Label> = all.collect();
-    let prepared = Box::leak(Box::new(PreparedRules {
-        base,
-        labels,
-        measures,
-    }));
-    Ok(match rules.labels.is_empty() {
-        // Sieves label the runs.
-        true => Family {
-            order: [base.order, &order].concat().leak(),
-            judge: judge::with_measures,
-            rules: Some(prepared),
-            ..*base
-        },
-        false => Family {
-            sieves: &[],
-            without_sieve: all.leak(),
-            order: order.leak(),
-            default_figures: &["phase"],
-            check: |_, _| Ok(()),
-            judge: judge::by_rules,
-            rules: Some(prepared),
-            ..*base
-        },
+    let labels = rules.labels.iter().enumerate();
+    let own = labels.map(|(place, rule)| label(place, rule, base));
+    let own: Vec<LabelOfRule> = own.collect();
+    let family = Family {
+        measured: measured.leak(),
+        base: Some(base),
+        ..*base
+    };
+    if rules.labels.is_empty() {
+        return Ok(family);
+    }
+    if rules.sieves {
+        let is_new = |it: &&LabelOfRule| own.iter().all(|own| own.label.code != it.label.code);
+        let of_base: Vec<_> = base.rules.iter().filter(is_new).cloned().collect();
+        return Ok(Family {
+            rules: [own, of_base].concat().leak(),
+            ..family
+        });
+    }
+    Ok(Family {
+        rules: own.leak(),
+        sieves: &[],
+        without_sieve: &[Label::UNSTABLE, Label::OTHER],
+        order: &[],
+        default_figures: &["phase"],
+        ..family
     })
 }
 
-fn label(place: usize, rule: &LabelRule) -> Label {
+/// A rule of a file. One with the name of a rule of the family `base` takes its place.
+fn label(place: usize, rule: &LabelRule, base: &'static Family) -> LabelOfRule {
+    let replaced = base.rules.iter().find(|it| it.label.name == rule.name);
+    let built_in = replaced.map_or_else(
+        || Label {
+            code: FIRST_CODE + place as i8,
+            name: rule.name.clone().leak(),
+            color: color::rgb(DISTINCT[place % DISTINCT.len()]),
+        },
+        |it| it.label,
+    );
     let color = rule.color.as_deref().and_then(entry::color);
-    Label {
-        code: FIRST_CODE + place as i8,
-        name: rule.name.clone().leak(),
-        color: color.unwrap_or_else(|| color::rgb(DISTINCT[place % DISTINCT.len()])),
+    LabelOfRule {
+        label: Label {
+            color: color.unwrap_or(built_in.color),
+            ..built_in
+        },
+        when: rule.when.clone().leak(),
+        over: rule.over.clone(),
+        evidence: evidence_of(rule).leak(),
     }
 }
 
 /// What a rule leaves beside its label: of the comparison that decides the value, the threshold,
-/// and how far they are apart over the larger of the two.
-fn evidence_of(rule: &LabelRule) -> [Measure; 3] {
-    let [value, threshold, margin] = columns_of(rule).map(|it| &*it.leak());
+/// and how far they are apart over the larger of the two; and since when it holds, if it looks at a
+/// part of the run.
+fn evidence_of(rule: &LabelRule) -> Vec<Measure> {
     let about = |what: &str| -> &'static str { format!("{what} of \"{}\"", rule.name).leak() };
-    [
+    let of_time = Measure {
+        description: "beginning of the part of the run in which the rule holds",
+        ..evidence(about("beginning"), "s")
+    };
+    let measures = [
         Measure {
-            name: value,
-            description: about("what is compared in the rule"),
+            description: "what is compared in the rule",
             ..evidence(about("value"), "")
         },
         Measure {
-            name: threshold,
-            description: about("what it is compared with in the rule"),
+            description: "what it is compared with in the rule",
             ..evidence(about("threshold"), "")
         },
         Measure {
-            name: margin,
-            description: about("distance from the border, over the larger side, in the rule"),
+            description: "distance from the border, over the larger side, in the rule",
             ..evidence(about("margin"), "").signed()
         },
-    ]
+        of_time,
+    ];
+    let named = columns_of(rule).zip(measures);
+    let named = named.map(|(name, measure)| Measure {
+        name: name.leak(),
+        ..measure
+    });
+    named.collect()
 }
 
-fn measure((rule, unit): (&MeasureRule, Unit)) -> Measure {
+fn measure(rule: &MeasureRule, unit: Unit) -> MeasureOfRule {
     let quantity = rule
         .quantity
         .clone()
         .unwrap_or_else(|| rule.name.replace('_', " "));
-    Measure {
-        name: rule.name.clone().leak(),
-        description: rule.value.clone().leak(),
-        ..measured(quantity.leak(), unit_text(unit))
+    MeasureOfRule {
+        measure: Measure {
+            name: rule.name.clone().leak(),
+            description: rule.value.clone().leak(),
+            ..measured(quantity.leak(), unit_text(unit))
+        },
+        over: rule.over.clone(),
     }
 }
 

@@ -1,22 +1,25 @@
 //! Labels and measures that a file states itself, as rules over the columns of a run.
 //!
-//! A file with labels of its own is labelled by these alone; measures are added to those of the
-//! sieves. Both make a [`Family`] of their own.
+//! A file with labels of its own is labelled by these alone, unless it says that the sieves label
+//! the other runs; measures are added to those of the sieves. Both make a [`Family`] of their own.
+//! Some labels that the program brings are rules, too.
 
 mod entry;
 mod family;
 mod judge;
 mod names;
+mod of_family;
 mod window;
 
-pub use entry::{LabelRule, MeasureRule};
-pub(super) use family::{PreparedRules, family};
-pub use window::RuleWindow;
+pub(super) use family::family;
+pub(super) use judge::judge;
+pub(super) use of_family::{LabelOfRule, MARGIN, MeasureOfRule, rule};
 
-use super::{FAMILIES, Family, Label};
+use super::{FAMILIES, Family, Label, Sieves};
 use crate::document::Problem;
+use crate::observe::Observations;
 use crate::rule::{Condition, Expression, ExpressionError, Number};
-use crate::scene::{FurtherColumn, Scene};
+use crate::scene::{FurtherColumn, LabelRule, MeasureRule, Scene, UsualChoice, UsualColumns};
 use names::SceneNames;
 use serde::{Deserialize, Serialize};
 
@@ -30,12 +33,24 @@ pub struct Rules {
     /// What is measured besides.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub measures: Vec<MeasureRule>,
+    /// Whether the sieves of the scene label the runs of which no rule holds.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub sieves: bool,
 }
 
 /// Most labels, and most measures.
 const MOST: usize = 40;
 
 impl Rules {
+    /// The rules of a scene's own file.
+    pub fn of(scene: &Scene) -> Self {
+        Self {
+            labels: scene.labels.clone(),
+            measures: scene.measures.clone(),
+            sieves: false,
+        }
+    }
+
     /// Whether there are none.
     pub fn is_empty(&self) -> bool {
         self.labels.is_empty() && self.measures.is_empty()
@@ -62,7 +77,7 @@ impl Rules {
         }
         for (place, rule) in self.labels.iter().enumerate() {
             let path = format!("label[{place}]");
-            problems.extend(self.problem_of_label(place, &path));
+            problems.extend(self.problem_of_label(place, &path, scene));
             problems.extend(rule.over.as_ref().and_then(|it| {
                 let path = format!("{path}.over");
                 it.check(&path, scene).err()
@@ -84,7 +99,9 @@ impl Rules {
             problems.extend(self.problem_of_measure(place, &path, scene));
             problems.extend(rule.over.as_ref().and_then(|it| {
                 let path = format!("{path}.over");
-                it.check(&path, scene).err()
+                it.check(&path, scene)
+                    .and_then(|()| it.check_is_one(&path))
+                    .err()
             }));
             let check = |run: &&Scene| number(&rule.value, &SceneNames::strict(run)).map(drop);
             let checked = runs.iter().try_for_each(check);
@@ -94,30 +111,64 @@ impl Rules {
         problems
     }
 
-    /// Asks for the further columns that they read, so that these need no other entry.
+    /// Asks for the columns that they read, so that these need no other entry.
     pub(crate) fn ask_for_columns(&self, scene: &mut Scene) {
+        let read = self.columns(scene);
+        let further = read.iter().filter_map(|name| FurtherColumn::of_name(name));
+        let further: Vec<FurtherColumn> = further.filter(|it| !it.is_usual_in(scene)).collect();
+        for column in further {
+            scene.output.ask_for(column);
+        }
+        if let UsualColumns::Named(names) = &mut scene.output.usual {
+            let usual = read.into_iter().filter(|name| Observations::is_usual(name));
+            names.extend(usual);
+            names.sort_unstable();
+            names.dedup();
+        }
+    }
+
+    /// Decides which usual columns are needed, of a scene that has no other rules.
+    pub(crate) fn choose_columns(&self, scene: &mut Scene) {
+        if scene.output.usual != UsualColumns::Word(UsualChoice::Needed) {
+            return;
+        }
+        let sieves = Sieves {
+            rules: self.clone(),
+            ..Sieves::default()
+        };
+        let family = sieves.family(scene);
+        if family.needs_sieves(scene) && !Family::of(scene).sieves.is_empty() {
+            return;
+        }
+        let of_steady = ["kinetic", "rotational", "rotation"].map(str::to_owned);
+        let of_steady = scene.steady.is_some().then_some(of_steady);
+        let names = of_steady.into_iter().flatten().collect();
+        scene.output.usual = UsualColumns::Named(names);
+        self.ask_for_columns(scene);
+    }
+
+    /// The columns that they read.
+    fn columns(&self, scene: &Scene) -> Vec<String> {
         let names = SceneNames::new(scene);
         let conditions = self.labels.iter().map(|rule| &rule.when);
         let conditions = conditions.filter_map(|it| condition(it, &names).ok());
         let numbers = self.measures.iter().map(|rule| &rule.value);
         let numbers = numbers.filter_map(|it| number(it, &names).ok());
         let read = conditions.flat_map(|it| it.columns().to_vec());
-        let read = read.chain(numbers.flat_map(|it| it.columns().to_vec()));
-        let further = read.filter_map(|name| FurtherColumn::of_name(&name));
-        let further: Vec<FurtherColumn> = further.filter(|it| !it.is_usual_in(scene)).collect();
-        for column in further {
-            scene.output.ask_for(column);
-        }
+        read.chain(numbers.flat_map(|it| it.columns().to_vec()))
+            .collect()
     }
 
     /// What is wrong with the name of a label.
-    fn problem_of_label(&self, place: usize, path: &str) -> Option<Problem> {
+    fn problem_of_label(&self, place: usize, path: &str, scene: &Scene) -> Option<Problem> {
         let (name, path) = (&self.labels[place].name, format!("{path}.name"));
         if let Err(problem) = entry::check_name(&path, name, '-') {
             return Some(problem);
         }
+        let of_rules = Family::of(scene).rules;
+        let replaces = self.sieves && of_rules.iter().any(|it| it.label.name == name);
         let is_built_in = FAMILIES.iter().any(|it| it.label(name).is_some());
-        if is_built_in || name == Label::OTHER.name {
+        if !replaces && (is_built_in || name == Label::OTHER.name) {
             let message = format!("`{name}` is a label of the program");
             return Some(Problem::new(path, message).help("use another name"));
         }

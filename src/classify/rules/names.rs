@@ -1,5 +1,6 @@
 //! What rules may name: the columns of a run and the numbers of its scene.
 
+use crate::classify::{Family, Measure};
 use crate::observe::Observations;
 use crate::record::RunRecord;
 use crate::rule::{Names, Unit, Values};
@@ -32,6 +33,23 @@ impl<'a> SceneNames<'a> {
         }
     }
 
+    /// Whether a name is what the sieves of the scene measure of a run.
+    pub(super) fn is_measure(&self, name: &str) -> bool {
+        self.measure(name).is_some()
+    }
+
+    fn measure(&self, name: &str) -> Option<&'static Measure> {
+        let mut measures = Family::of(self.scene).measures_of_sieves();
+        measures.find(|measure| measure.name == name)
+    }
+
+    /// The unit of the column of that name of a profile.
+    fn of_profile(&self, name: &str) -> Option<&'static str> {
+        let mut profiles = self.scene.output.profiles.iter();
+        let found = profiles.find(|profile| profile.columns().any(|it| it == name))?;
+        Some(found.of.unit())
+    }
+
     /// Names and units of the columns that its runs may have.
     fn columns(&self) -> impl Iterator<Item = (&'a str, &'a str)> {
         let program = self.scene.program.as_ref();
@@ -52,12 +70,17 @@ impl Names for SceneNames<'_> {
         if self.strict && self.absent(name).is_some() {
             return None;
         }
-        let unit = self.columns().find(|column| column.0 == name)?.1;
-        Unit::parse(unit).ok()
+        let own = self.columns().find(|column| column.0 == name);
+        let unit = own.map(|column| column.1);
+        Unit::parse(unit.or_else(|| self.of_profile(name))?).ok()
     }
 
     fn key(&self, path: &str) -> Option<Unit> {
-        self.scene.number(path)?;
+        if let Some(measure) = self.measure(path) {
+            let counted = measure.unit.replace("grains", "1").replace("spheres", "1");
+            return Unit::parse(&counted).ok();
+        }
+        number(self.scene, path)?;
         let own = self.scene.is_external().then(|| self.scene.notation(path));
         let notation = own.unwrap_or_else(|| Notation::anywhere(path));
         Unit::parse(notation.map_or("", |it| it.unit)).ok()
@@ -85,18 +108,32 @@ impl Names for SceneNames<'_> {
         let columns = self.columns();
         let columns = columns.filter(|column| !self.strict || self.absent(column.0).is_none());
         let columns = columns.map(|column| column.0.to_owned());
-        columns.chain(self.scene.numeric_keys()).collect()
+        let measures = Family::of(self.scene).measures_of_sieves();
+        let measures = measures.map(|measure| measure.name.to_owned());
+        let names = columns.chain(measures);
+        names.chain(self.scene.numeric_keys()).collect()
+    }
+}
+
+/// The number of a key, or pi. The number of `spheres.radius` is the mean of radii that differ.
+fn number(scene: &Scene, path: &str) -> Option<f64> {
+    match path {
+        "pi" => Some(std::f64::consts::PI),
+        "spheres.radius" if !scene.is_external() => Some(scene.spheres.radius.mean()),
+        path => scene.number(path),
     }
 }
 
 /// The values of a run.
 pub(super) struct RunValues<'a> {
     record: &'a RunRecord,
+    /// What the sieves of its scene measured, in their order; empty if no rule reads it.
+    measures: &'a [Option<f64>],
 }
 
 impl<'a> RunValues<'a> {
-    pub(super) fn new(record: &'a RunRecord) -> Self {
-        Self { record }
+    pub(super) fn new(record: &'a RunRecord, measures: &'a [Option<f64>]) -> Self {
+        Self { record, measures }
     }
 
     /// Whether the record has a column, with a value in each frame.
@@ -123,6 +160,11 @@ impl Values for RunValues<'_> {
     }
 
     fn key(&self, path: &str) -> f64 {
-        self.record.scene.number(path).unwrap_or(f64::NAN)
+        let mut measures = Family::of(&self.record.scene).measures_of_sieves();
+        let value = match measures.position(|measure| measure.name == path) {
+            Some(place) => self.measures.get(place).copied().flatten(),
+            None => number(&self.record.scene, path),
+        };
+        value.unwrap_or(f64::NAN)
     }
 }

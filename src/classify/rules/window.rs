@@ -1,33 +1,12 @@
 //! The part of a run that a rule looks at.
 
-use crate::document::{Problem, unit};
+use crate::document::Problem;
 use crate::record::RunRecord;
-use crate::scene::Scene;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use crate::scene::{RuleWindow, Scene};
 use std::ops::Range;
 
-/// The part of a run that a rule looks at: `{ last = 2.0 }`, `{ from = 1.0, to = 3.0 }` or
-/// `{ steady = true }`. In a run that is shorter nothing is known.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct RuleWindow {
-    /// The time before the end (s).
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(transform = unit("s").above(0.0))]
-    pub last: Option<f64>,
-    /// From this time on (s).
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(transform = unit("s").at_least(0.0))]
-    pub from: Option<f64>,
-    /// Until this time (s). Absent: the end.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(transform = unit("s").above(0.0))]
-    pub to: Option<f64>,
-    /// The steady part at the end, of a scene whose runs end when they are steady.
-    #[serde(skip_serializing_if = "std::ops::Not::not")]
-    pub steady: bool,
-}
+/// About how many values of a column the windows of a rule read.
+const MOST_VALUES: usize = 20_000_000;
 
 /// Share of a time by which it may be rounded.
 const ROUNDING: f64 = 1e-9;
@@ -42,13 +21,14 @@ impl RuleWindow {
         let given = [
             self.last.is_some(),
             self.from.or(self.to).is_some(),
+            self.any.is_some(),
             self.steady,
         ];
         if given.into_iter().filter(|it| *it).count() != 1 {
             let message = "the part of the run is not said in one way";
             return Err(Problem::new(path, message).help(
-                "give `last`, or `from` and `to`, or `steady = true`; for the whole run leave \
-                 `over` out",
+                "give `last`, or `from` and `to`, or `any`, or `steady = true`; for the whole run \
+                 leave `over` out",
             ));
         }
         if self.steady && scene.steady.is_none() {
@@ -63,7 +43,13 @@ impl RuleWindow {
         if self.to.is_some_and(|to| to <= self.from.unwrap_or(0.0)) {
             return refuse("to", "`to` is not after `from`", "give a later time");
         }
-        for (key, time) in [("last", self.last), ("from", self.from), ("to", self.to)] {
+        let times = [
+            ("last", self.last),
+            ("from", self.from),
+            ("to", self.to),
+            ("any", self.any),
+        ];
+        for (key, time) in times {
             if time.is_some_and(|it| it > end * (1.0 + ROUNDING)) {
                 let message = format!("runs end after {end} s");
                 return refuse(
@@ -74,6 +60,34 @@ impl RuleWindow {
             }
         }
         Ok(())
+    }
+
+    /// What is wrong with it for a measure, which is one number of a run.
+    pub(super) fn check_is_one(&self, path: &str) -> Result<(), Problem> {
+        let message = "a measure is one number, and there are many windows";
+        let problem = Problem::new(format!("{path}.any"), message);
+        match self.any {
+            Some(_) => Err(problem.help("use `last`, or `from` and `to`")),
+            None => Ok(()),
+        }
+    }
+
+    /// The windows of a run that `any` means, by the frames at which they begin. Those of a long
+    /// run begin so many frames apart that all together are read in a moment.
+    pub(super) fn windows(&self, record: &RunRecord) -> Vec<Range<usize>> {
+        let time = &record.observations.time;
+        let (Some(length), Some(end)) = (self.any, time.last()) else {
+            return Vec::new();
+        };
+        let slack = end * ROUNDING;
+        let last = time.partition_point(|it| *it <= end - length + slack);
+        let frames = |start: usize| {
+            let until = time[start] + length + slack;
+            start..time.partition_point(|it| *it <= until)
+        };
+        let longest = if last == 0 { 0 } else { frames(0).len() };
+        let apart = (last * longest).div_ceil(MOST_VALUES).max(1);
+        (0..last).step_by(apart).map(frames).collect()
     }
 
     /// The frames of a run; none if it has not the whole part.

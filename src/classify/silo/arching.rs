@@ -72,14 +72,6 @@ impl Sieve for ArchingSieve {
 }
 
 impl ArchingSieve {
-    /// Whether what could leave has left: the outflow has stopped, and no grain is over the
-    /// opening.
-    pub(super) fn is_drained(&self, run: &Outflow<'_>) -> bool {
-        let pause = self.pause(run);
-        let has_stopped = pause.is_some_and(|pause| self.margin(run, pause) >= 0.0);
-        has_stopped && run.over_opening() == Some(0.0)
-    }
-
     /// Time without an outflow at the end of the run (s).
     fn pause(&self, run: &Outflow<'_>) -> Option<f64> {
         let last = run.last_exit()?;

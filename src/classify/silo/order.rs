@@ -1,6 +1,5 @@
 //! Continuous measures of a silo, filled and flowing.
 
-use super::EmptiedSieve;
 use super::outflow::Outflow;
 use crate::classify::measure::{measured, measures};
 use crate::measure::packing_fraction;
@@ -8,6 +7,9 @@ use crate::measure::packing_fraction;
 /// Shares of the grains between which the discharge rate is measured: neither while the flow begins
 /// nor while the last grains trickle out.
 const RATE_SHARES: [f64; 2] = [0.2, 0.8];
+
+/// Share of the grains without which a silo counts as empty, as in the rule of its label.
+const EMPTIED_SHARE: f64 = 0.95;
 
 measures! {
     /// Continuous measures of a silo, filled and flowing. Fields are empty where a measure is
@@ -32,14 +34,13 @@ measures! {
         mass_rate: measured("discharge rate", "kg/s"),
         /// Share of all grains that left.
         discharged_share: measured("share of the grains that left", "").share(),
-        /// Time from the opening of the door until the share of the grains had left that the
-        /// emptied sieve asks for (s).
+        /// Time from the opening of the door until 95 % of the grains had left (s).
         emptying_time: measured("time to empty", "s"),
     }
 }
 
 impl SiloOrder {
-    pub(super) fn measure(run: &Outflow<'_>, emptied: &EmptiedSieve) -> Self {
+    pub(super) fn measure(run: &Outflow<'_>) -> Self {
         let rest = HeapAtRest::of(run);
         let at_rest = |values: &[f32]| Some(f64::from(values[rest.as_ref()?.frame?]));
         let (discharge_rate, mass_rate) = rates(run).unwrap_or_default();
@@ -51,7 +52,7 @@ impl SiloOrder {
             discharge_rate,
             mass_rate,
             discharged_share: run.opened.map(|_| run.discharged() / run.grains),
-            emptying_time: emptying_time(run, emptied),
+            emptying_time: emptying_time(run),
         }
     }
 }
@@ -119,9 +120,9 @@ fn rates(run: &Outflow<'_>) -> Option<(Option<f64>, Option<f64>)> {
     Some((change(&observations.discharged), mass))
 }
 
-fn emptying_time(run: &Outflow<'_>, emptied: &EmptiedSieve) -> Option<f64> {
+fn emptying_time(run: &Outflow<'_>) -> Option<f64> {
     let opened = run.opened?;
-    let frame = run.frame_of(emptied.share * run.grains)?;
+    let frame = run.frame_of(EMPTIED_SHARE * run.grains)?;
     Some((run.observations.time[frame] - opened).max(0.0))
 }
 
@@ -188,16 +189,14 @@ mod tests {
     }
 
     #[test]
-    fn the_time_to_empty_is_that_of_the_share_of_the_sieve() {
+    fn the_time_to_empty_is_that_of_the_share_of_the_rule() {
         let record = draining(190, 1.0);
         let order = measure(&record);
         assert!(
             close(order.value("emptying_time"), DURATION - 1.0 - OPENED, 1e-9),
             "{order:?}"
         );
-        let mut sieves = Sieves::default();
-        sieves.emptied.share = 0.96;
-        let later = classify(&record, &sieves).unwrap();
+        let later = measure(&draining(189, 1.0));
         assert_eq!(later.value("emptying_time"), None);
     }
 

@@ -18,8 +18,6 @@ pub(in crate::classify) struct Outflow<'a> {
     pub(super) opened: Option<f64>,
     /// Whether the run ended because all grains in the open silo were at rest.
     pub(super) stopped: bool,
-    /// Whether what could leave has left, as the arching sieve finds.
-    pub(super) is_drained: bool,
     /// Time of the last frame (s).
     pub(super) end: f64,
 }
@@ -60,7 +58,6 @@ impl<'a> Outflow<'a> {
                 .map(|it| it.time),
             opened,
             stopped: after.iter().any(|it| it.kind == MilestoneKind::AtRest),
-            is_drained: false,
             end: observations.time.last().copied().unwrap_or(0.0),
         })
     }

@@ -29,6 +29,7 @@ use order::OrderParameters;
 /// Scenes with a cylindrical tank and without an outlet.
 pub static TANK: Family = Family {
     name: "tank",
+    rules: &[],
     sieves: TANK_SIEVES,
     without_sieve: &[Label::UNSTABLE, Label::UNSETTLED],
     order: OrderParameters::MEASURES,
@@ -44,7 +45,8 @@ pub static TANK: Family = Family {
         run::energy_scale(scene).map(|_| ())
     },
     judge,
-    rules: None,
+    measured: &[],
+    base: None,
 };
 
 /// The shortest steady part of a run must hold the window of every sieve.

@@ -151,14 +151,15 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     };
     write(&mut record, &path, &checkpoints, original.is_some())?;
     run_folder.tidy(&record.scene);
-    console.result(summary(&record, seconds));
+    let verdict = answer::labelled(&record)?;
+    console.result(summary(&record, verdict.as_ref(), seconds));
     console.file(&path);
     if let Some(table) = &table {
         store::write_observations(&record, table)?;
         console.file(table);
     }
     checkpoints.remove()?;
-    let mut answer = Answer::new(&record, seconds, &path);
+    let mut answer = Answer::new(&record, verdict.as_ref(), seconds, &path);
     answer.resumed_from = resumed_from;
     if let Some(original) = &original {
         answer.same_bits = original.compare(&record, console)?;

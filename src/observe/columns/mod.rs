@@ -2,6 +2,7 @@
 //! asks for.
 
 mod packing;
+mod profile;
 mod shear;
 mod spread;
 mod surface;
@@ -9,8 +10,9 @@ mod temperature;
 #[cfg(test)]
 mod tests;
 
+use super::OwnSeries;
 use crate::measure::LayerOfScene;
-use crate::scene::{FurtherColumn, Scene, Shape};
+use crate::scene::{ColumnProfile, FurtherColumn, Scene, Shape};
 use crate::simulation::{Column, Frame, FrameView};
 use serde::{Deserialize, Serialize};
 
@@ -18,6 +20,9 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(super) struct SphereColumns {
     columns: Vec<FurtherColumn>,
+    profiles: Vec<ColumnProfile>,
+    /// Cross-section of the tank (m2).
+    area: f64,
     /// Numbers of axes along which spheres move and about which they turn.
     degrees: [f64; 2],
     diameter: f64,
@@ -32,6 +37,12 @@ impl SphereColumns {
         columns.sort_unstable();
         Self {
             columns,
+            profiles: scene.output.profiles.clone(),
+            area: scene
+                .tank
+                .as_ref()
+                .and_then(|it| it.area())
+                .unwrap_or(f64::NAN),
             degrees: match scene.spheres.shape {
                 Shape::Sphere => [3.0, 3.0],
                 Shape::Disc => [2.0, 1.0],
@@ -42,18 +53,39 @@ impl SphereColumns {
     }
 
     /// Their declarations.
-    pub(super) fn declared(&self) -> impl Iterator<Item = Column> {
-        self.columns.iter().map(|&column| column.into())
+    pub(super) fn declared(&self) -> impl Iterator<Item = OwnSeries> {
+        let columns = self
+            .columns
+            .iter()
+            .map(|&column| Column::from(column).into());
+        let of_profile = |profile: &ColumnProfile| {
+            let (of, profile) = (profile.of, *profile);
+            let names = profile.columns().enumerate();
+            names.map(move |(bin, name)| {
+                let [from, to] = profile.ends(bin);
+                OwnSeries {
+                    name,
+                    unit: of.unit().to_owned(),
+                    description: format!("{}, from {from} to {to} m", of.description()),
+                    values: Vec::new(),
+                }
+            })
+        };
+        columns.chain(self.profiles.iter().flat_map(of_profile))
     }
 
     /// How many there are.
     pub(super) fn count(&self) -> usize {
-        self.columns.len()
+        let bins = self.profiles.iter().map(|profile| profile.bins);
+        self.columns.len() + bins.sum::<usize>()
     }
 
     /// Their values at a frame. Not a number where one is undefined, such as without spheres.
     pub(super) fn values(&self, frame: &dyn Frame) -> impl Iterator<Item = f64> {
-        self.columns.iter().map(|&column| self.value(column, frame))
+        let columns = self.columns.iter().map(|&column| self.value(column, frame));
+        let of_profile =
+            |profile: &ColumnProfile| profile::values(profile, frame, self.area, self.degrees[0]);
+        columns.chain(self.profiles.iter().flat_map(of_profile))
     }
 
     fn value(&self, column: FurtherColumn, frame: &dyn Frame) -> f64 {

@@ -28,7 +28,7 @@ struct Spheres {
 
 impl Spheres {
     /// Values of all columns, by name.
-    fn values(&self) -> Vec<(&'static str, f64)> {
+    fn values(&self) -> Vec<(String, f64)> {
         let count = self.position[0].len();
         let view = FrameView {
             position: self.position.each_ref().map(Vec::as_slice),
@@ -43,7 +43,7 @@ impl Spheres {
             flow: None,
         };
         let columns = SphereColumns::new(&scene(), 0.05);
-        let names: Vec<&str> = columns.declared().map(|column| column.name).collect();
+        let names: Vec<String> = columns.declared().map(|column| column.name).collect();
         names.into_iter().zip(columns.values(&view)).collect()
     }
 

@@ -51,23 +51,13 @@ impl Default for Totals {
 }
 
 impl Totals {
-    /// Adds a block of spheres, under gravity of these components along x and z (m/s2).
-    pub(super) fn add(&mut self, block: &FrameView<'_>, [gx, gz]: [f64; 2]) {
-        let ([x, _, z], [vx, vy, vz]) = (block.position, block.velocity);
+    /// Adds a block of spheres; with gravity of components along x and z (m/s2) also its energies.
+    pub(super) fn add(&mut self, block: &FrameView<'_>, gravity: Option<[f64; 2]>) {
+        let ([_, _, z], [_, _, vz]) = (block.position, block.velocity);
         self.count += block.count();
-        self.kinetic
-            .add([block.mass, vx, vy, vz], |[mass, x, y, z]| {
-                0.5 * mass * (x * x + y * y + z * z)
-            });
-        if let Some([wx, wy, wz]) = block.spin {
-            self.rotational
-                .add([block.inertia, wx, wy, wz], |[inertia, x, y, z]| {
-                    0.5 * inertia * (x * x + y * y + z * z)
-                });
+        if let Some(gravity) = gravity {
+            self.add_energies(block, gravity);
         }
-        self.gravitational.add([block.mass, x, z], |[mass, x, z]| {
-            -(mass * gx * x) - mass * gz * z
-        });
         let speed = |[x, y, z]: [f64; 3]| (x * x + y * y + z * z).sqrt();
         self.speed.add(block.velocity, speed);
         self.rise.add([vz], |[vz]| vz);
@@ -83,6 +73,23 @@ impl Totals {
         self.elastic_energy = block.elastic_energy;
         self.ledger = block.ledger;
         self.flow = block.flow;
+    }
+
+    fn add_energies(&mut self, block: &FrameView<'_>, [gx, gz]: [f64; 2]) {
+        let ([x, _, z], [vx, vy, vz]) = (block.position, block.velocity);
+        self.kinetic
+            .add([block.mass, vx, vy, vz], |[mass, x, y, z]| {
+                0.5 * mass * (x * x + y * y + z * z)
+            });
+        if let Some([wx, wy, wz]) = block.spin {
+            self.rotational
+                .add([block.inertia, wx, wy, wz], |[inertia, x, y, z]| {
+                    0.5 * inertia * (x * x + y * y + z * z)
+                });
+        }
+        self.gravitational.add([block.mass, x, z], |[mass, x, z]| {
+            -(mass * gx * x) - mass * gz * z
+        });
     }
 
     /// Adds sums that refer to the axis. `distance` holds the distances of a block's spheres from

@@ -13,7 +13,7 @@ use crate::refine::observations::Training;
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Regression;
 
-struct Regressed {
+pub(super) struct Regressed {
     runs: Training,
     kernel: Kernel,
     factor: Cholesky,
@@ -26,23 +26,22 @@ const NOISES: [f64; 4] = [0.001, 0.01, 0.05, 0.2];
 
 impl LabelModel for Regression {
     fn fit(&self, runs: &Training) -> Box<dyn Fitted> {
-        let fits = NOISES.iter().map(|noise| {
-            let best = ascend(KernelSetting::start(runs.axes()), |setting| {
-                fit(runs, setting, *noise).1
-            });
-            fit(runs, &best, *noise)
+        let targets = (0..runs.codes().len()).map(|label| {
+            let target = |run| if runs.label(run) == label { 1.0 } else { -1.0 };
+            (0..runs.runs()).map(target).collect()
         });
-        let fits = fits.collect::<Vec<_>>();
-        let best = fits
-            .into_iter()
-            .max_by(|one, other| one.1.total_cmp(&other.1));
-        Box::new(best.expect("there are noises to try").0)
+        Box::new(Regressed::best(runs, &targets.collect::<Vec<_>>()))
     }
 }
 
 /// The regression with this kernel, and the logarithm of the marginal likelihood (equation 2.30)
 /// at the amplitude that makes it largest.
-fn fit(runs: &Training, setting: &KernelSetting, noise: f64) -> (Regressed, f64) {
+fn fit(
+    runs: &Training,
+    targets: &[Vec<f64>],
+    setting: &KernelSetting,
+    noise: f64,
+) -> (Regressed, f64) {
     let mut kernel = setting.kernel();
     kernel.variance = 1.0;
     let count = runs.runs();
@@ -51,19 +50,17 @@ fn fit(runs: &Training, setting: &KernelSetting, noise: f64) -> (Regressed, f64)
         matrix.row(i)[j] + if i == j { noise } else { 0.0 }
     });
     let mut square = 0.0;
-    let labels = runs.codes().len();
-    let weights = (0..labels).map(|label| {
-        let target = |run| if runs.label(run) == label { 1.0 } else { -1.0 };
-        let targets: Vec<f64> = (0..count).map(target).collect();
+    let weights = targets.iter().map(|targets| {
         let mut weights = targets.clone();
         factor.solve(&mut weights);
-        square += dot(&targets, &weights);
+        square += dot(targets, &weights);
         weights
     });
     let weights = weights.collect();
-    let numbers = (labels * count) as f64;
+    let series = targets.len();
+    let numbers = (series * count) as f64;
     kernel.variance = square / numbers;
-    let logarithm = labels as f64 * factor.log_determinant() + numbers * libm::log(kernel.variance);
+    let logarithm = series as f64 * factor.log_determinant() + numbers * libm::log(kernel.variance);
     let regressed = Regressed {
         runs: runs.clone(),
         kernel,
@@ -81,7 +78,41 @@ impl Fitted for Regressed {
 }
 
 impl Regressed {
+    /// The regression of numbers of the runs, one series or several, with the largest marginal
+    /// likelihood.
+    pub(super) fn best(runs: &Training, targets: &[Vec<f64>]) -> Self {
+        let fits = NOISES.iter().map(|noise| {
+            let best = ascend(KernelSetting::start(runs.axes()), |setting| {
+                fit(runs, targets, setting, *noise).1
+            });
+            fit(runs, targets, &best, *noise)
+        });
+        let fits = fits.collect::<Vec<_>>();
+        let best = fits
+            .into_iter()
+            .max_by(|one, other| one.1.total_cmp(&other.1));
+        best.expect("there are noises to try").0
+    }
+
+    /// Root mean square of the differences between the numbers and what the others predict, over
+    /// the spreads of these predictions (equations 5.10 to 5.12).
+    pub(super) fn left_out_residual(&self, targets: &[f64]) -> f64 {
+        let inverse = self.factor.inverse_diagonal();
+        let mut weights = targets.to_vec();
+        self.factor.solve(&mut weights);
+        let squares = weights.iter().zip(&inverse);
+        let squares = squares.map(|(weight, inverse)| weight * weight / inverse);
+        (squares.sum::<f64>() / targets.len() as f64 / self.kernel.variance).sqrt()
+    }
+
     fn at(&self, unit: &[f64]) -> Vec<f64> {
+        let (means, spread) = self.latent(unit);
+        let weights = means.iter().map(|mean| normal::odds_below(mean / spread));
+        normalised(weights.collect())
+    }
+
+    /// Means of the numbers at a place, and the spread of a run there.
+    pub(super) fn latent(&self, unit: &[f64]) -> (Vec<f64>, f64) {
         let mut column = self.kernel.column(&self.runs, unit);
         for covariance in &mut column {
             *covariance /= self.kernel.variance;
@@ -89,8 +120,6 @@ impl Regressed {
         let means: Vec<f64> = self.weights.iter().map(|it| dot(it, &column)).collect();
         self.factor.solve_lower(&mut column);
         let rest = (1.0 - dot(&column, &column)).max(0.0) + self.noise;
-        let spread = (self.kernel.variance * rest).sqrt();
-        let weights = means.iter().map(|mean| normal::odds_below(mean / spread));
-        normalised(weights.collect())
+        (means, (self.kernel.variance * rest).sqrt())
     }
 }

@@ -29,13 +29,20 @@ impl<'run> Frames<'run> {
             TIME => Cow::Borrowed(time),
             name => run.column(name),
         };
-        let end = window.end.min(time.len());
-        Self {
+        let mut frames = Self {
             time,
             columns: needs.columns.iter().map(column).collect(),
             keys: needs.keys.iter().map(|name| run.key(name)).collect(),
-            window: window.start.min(end)..end,
-        }
+            window: 0..0,
+        };
+        frames.look_at(window);
+        frames
+    }
+
+    /// Looks at the frames of another window.
+    pub(in crate::rule) fn look_at(&mut self, window: Range<usize>) {
+        let end = window.end.min(self.time.len());
+        self.window = window.start.min(end)..end;
     }
 
     /// The value of a formula; what is not a number has the same bits on every machine.

@@ -3,7 +3,7 @@
 use super::rounded;
 use super::time::{MOST_FRAMES, multiple};
 use crate::document::{Problem, accepted, number};
-use crate::scene::Scene;
+use crate::scene::{ProfileAxis, Scene};
 
 /// Largest number of values of an observable with several per frame: one gigabyte.
 const MOST_NUMBERS: f64 = 2.5e8;
@@ -67,12 +67,50 @@ impl Scene {
                 problems.push(Problem::new(path, message).help("remove it"));
             }
         }
+        self.check_profiles(problems);
         if let Some(layer) = &self.output.layer
             && layer.z_max <= layer.z_min
         {
             let message = "the upper side of the layer is not above its lower side";
             let problem = Problem::new("output.layer.z_max", message);
             problems.push(problem.help("give a larger height"));
+        }
+    }
+
+    /// Whether runs can have the profiles that are asked for.
+    fn check_profiles(&self, problems: &mut Vec<Problem>) {
+        let profiles = &self.output.profiles;
+        for (index, profile) in profiles.iter().enumerate() {
+            let mut refuse = |key: &str, message: String, help: &str| {
+                let path = format!("output.profiles[{index}].{key}");
+                problems.push(Problem::new(path, message).help(help));
+            };
+            let name = profile.of.name();
+            if let Some(why) = profile.absent_in(self) {
+                refuse(
+                    "of",
+                    format!("this scene has no profile `{name}`: {why}"),
+                    "remove it",
+                );
+            }
+            if profile.to <= profile.from {
+                let message = "the last bin does not end above the beginning of the first";
+                refuse("to", message.to_owned(), "give a larger number");
+            }
+            if profile.over == ProfileAxis::Radius && profile.from < 0.0 {
+                let message = "a distance from the axis is not below 0";
+                refuse("from", message.to_owned(), "give 0 or more");
+            }
+            if profiles[..index]
+                .iter()
+                .any(|it| it.stem() == profile.stem())
+            {
+                let message = format!(
+                    "another profile has the columns `{}1` already",
+                    profile.stem()
+                );
+                refuse("of", message, "join their bins, or remove one");
+            }
         }
     }
 

@@ -197,15 +197,15 @@ fn a_table_of_a_silo_has_columns_of_its_own() {
     let mut lines = text.lines();
     assert_eq!(
         lines.next().unwrap(),
-        "id,opening,seed,label,code,emptied_margin,arching_pause,arching_margin,over_opening,\
-         flowing_count,flowing_margin,rest_time,heap_height,packing_fraction,coordination,\
+        "id,opening,seed,label,code,emptied_value,emptied_threshold,emptied_margin,arching_pause,\
+         arching_margin,over_opening,flowing_count,flowing_margin,rest_time,heap_height,packing_fraction,coordination,\
          discharge_rate,mass_rate,discharged_share,emptying_time"
     );
     assert_eq!(
         lines.next().unwrap(),
-        "0123456789abcde1,0.24,1,arching,6,,2.5,,,,,,,,,,,,"
+        "0123456789abcde1,0.24,1,arching,6,,,,2.5,,,,,,,,,,,,"
     );
-    assert!(lines.next().unwrap().contains(",2,emptied,8,,2.5,"));
+    assert!(lines.next().unwrap().contains(",2,emptied,8,,,,2.5,"));
     let wrong = text.replace("arching,6", "settled,1");
     let found = in_file(&wrong, read_labels).unwrap_err().to_string();
     assert!(

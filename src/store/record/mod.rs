@@ -147,6 +147,7 @@ pub fn motion_digest(record: &RunRecord) -> Result<String, String> {
                 snapshot_interval: 0.0,
                 trajectory: false,
                 columns: Vec::new(),
+                profiles: Vec::new(),
                 layer: None,
                 ..record.scene.output.clone()
             },

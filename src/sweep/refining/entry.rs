@@ -163,6 +163,11 @@ impl RefineEntry {
             return Err(Problem::new(format!("refine.start[{bad}]"), message)
                 .help("use 1 or more, such as 6"));
         }
+        if self.model == ModelKind::Margins && !sweep.family().has_rules_alone() {
+            let message = "margins are learnt where labels are by rules alone";
+            let help = "give labels in [[label]], without `labels`; or remove `model`";
+            return Err(Problem::new("refine.model", message).help(help));
+        }
         let broken = |error: RefineError| Problem::new("refine", error.to_string());
         let axes = sweep.axes.len();
         if self.start.len() != 1 && self.start.len() != axes {

@@ -1,9 +1,10 @@
 //! What a refined sweep has learnt from its runs, and the tables that tell it.
 
 use super::{Refining, borders};
-use crate::classify::{Family, LabelTable};
+use crate::classify::{Family, LabelRow, LabelTable};
 use crate::refine::{
-    Borders, Code, Lattice, Observations, ProbabilityMap, RefineError, Trial, probabilities,
+    Borders, Code, Finding, Lattice, Observations, ProbabilityMap, RefineError, Trial,
+    probabilities,
 };
 use crate::store::{self, BorderRow, StoreError};
 use crate::sweep::{Folder, Sweep};
@@ -16,6 +17,14 @@ pub fn label_name(family: &Family, code: Code) -> &'static str {
     let mut labels = family.labels().into_iter();
     let label = labels.find(|label| label.code == code);
     label.map_or("failed", |label| label.name)
+}
+
+/// What the row of a run says.
+pub(super) fn found(row: &LabelRow) -> Finding {
+    Finding {
+        label: row.verdict.label.code,
+        margins: row.verdict.margins(),
+    }
 }
 
 /// What a refined sweep has learnt from its runs.
@@ -56,7 +65,7 @@ impl Learnt {
                 seed: row.seed,
             };
             if is_of_sweep(&run) {
-                runs.add(run, row.verdict.label.code)?;
+                runs.add(run, found(row))?;
             }
         }
         for run in refining.iter().flat_map(|it| &it.failed) {

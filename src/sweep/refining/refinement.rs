@@ -1,6 +1,6 @@
 //! The rounds of a refined sweep, chosen from labels alone.
 
-use super::learnt::{FAILED, Learnt};
+use super::learnt::{FAILED, Learnt, found};
 use super::{Refining, ends_before};
 use crate::classify::LabelTable;
 use crate::grid::PointError;
@@ -109,8 +109,8 @@ impl Refinement {
         };
         let mut rounds = Rounds::new(sweep.lattice()?, settings)?;
         for run in given {
-            if let Some(label) = known.runs.label(&run) {
-                rounds.learn(run.clone(), label)?;
+            if let Some(found) = known.runs.found(&run) {
+                rounds.learn(run.clone(), found.clone())?;
                 refining.given.push(run);
             }
         }
@@ -141,8 +141,8 @@ impl Refinement {
         self.latest.clone_from(&round);
         let mut open = Vec::new();
         for run in round {
-            match self.known.runs.label(&run) {
-                Some(label) => self.rounds.learn(run.clone(), label)?,
+            match self.known.runs.found(&run) {
+                Some(found) => self.rounds.learn(run.clone(), found.clone())?,
                 None => open.push(run.clone()),
             }
             self.refining.chosen.push(run);
@@ -178,8 +178,8 @@ impl Refinement {
         }
         for job in jobs {
             let run = run_of(job);
-            if let Some(label) = self.known.runs.label(&run) {
-                self.rounds.learn(run, label)?;
+            if let Some(found) = self.known.runs.found(&run) {
+                self.rounds.learn(run, found.clone())?;
             }
         }
         Ok(self.note_widths()?)
@@ -260,7 +260,7 @@ impl Known {
                 values: row.values.clone(),
                 seed: row.seed,
             };
-            self.runs.add(run, row.verdict.label.code)?;
+            self.runs.add(run, found(&row))?;
             self.table.rows.push(row);
         }
         let runs = jobs.iter().map(run_of);

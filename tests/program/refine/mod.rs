@@ -6,6 +6,7 @@ mod given;
 mod interface;
 #[path = "../../../examples/oracle/maps.rs"]
 mod maps;
+mod margins;
 #[path = "../../../examples/oracle/noise.rs"]
 mod noise;
 mod oracle;

@@ -2,7 +2,8 @@
 
 use crate::cli::format;
 use phase::grid::{Axis, Variant};
-use phase::scene::{Scene, Start, Tank};
+use phase::plot::figures;
+use phase::scene::{Scene, Start, Tank, UsualColumns};
 use phase::sweep::{Sweep, differing_keys};
 use serde_json::Value;
 
@@ -40,7 +41,34 @@ pub(super) fn describe_sweep(sweep: &Sweep, jobs: usize) -> String {
         effects(scene).join(", ")
     }));
     lines.extend(of_scenes(sweep, "duration", describe_time));
+    lines.extend(describe_columns(sweep));
     lines.join("\n")
+}
+
+/// Which usual columns are recorded, if not all, and which figures that leaves out.
+fn describe_columns(sweep: &Sweep) -> Vec<String> {
+    let scenes = sweep.scenes();
+    let outputs = scenes.iter().map(|scene| &scene.output);
+    let chosen = outputs.clone().find_map(|output| match &output.usual {
+        UsualColumns::Named(names) => Some(names.join(", ")),
+        UsualColumns::Word(_) => None,
+    });
+    let Some(chosen) = chosen else {
+        return Vec::new();
+    };
+    let family = sweep.family();
+    let figures = figures().iter().filter(|figure| figure.applies_to(family));
+    let missing = figures.filter(|figure| outputs.clone().any(|it| figure.lacks(it).is_some()));
+    let missing: Vec<&str> = missing.map(|figure| figure.name).collect();
+    let mut lines = vec![line(
+        "columns",
+        format_args!("of the usual ones only {chosen}"),
+    )];
+    if !missing.is_empty() {
+        let text = format!("without the figures {}", missing.join(", "));
+        lines.push(line("", text));
+    }
+    lines
 }
 
 /// A line about the scene, or a line for each variant where their scenes differ.

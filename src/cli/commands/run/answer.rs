@@ -1,6 +1,7 @@
 //! What `phase run` says of a run that has ended.
 
 use crate::cli::format;
+use phase::classify::{ClassifyError, Rules, Sieves, Verdict, classify};
 use phase::dem::timestep::StepMargin;
 use phase::record::{Milestone, MilestoneKind, Outcome, RunRecord};
 use phase::run::model_of;
@@ -30,6 +31,10 @@ pub(super) struct Answer<'a> {
     milestones: Vec<Milestone>,
     /// What should have happened and did not.
     unmet: Vec<String>,
+    /// The label by the rules of the scene's file, and their evidence and measures; none without
+    /// rules.
+    label: Option<&'static str>,
+    measures: BTreeMap<&'static str, Option<f64>>,
     /// Time (s) and every scalar observable of the last frame, in the units of the record.
     last_frame: BTreeMap<&'a str, f64>,
     /// Time (s) of the checkpoint that the run went on from; none if it began at its start.
@@ -39,7 +44,12 @@ pub(super) struct Answer<'a> {
 }
 
 impl<'a> Answer<'a> {
-    pub(super) fn new(record: &'a RunRecord, seconds: f64, path: &'a Path) -> Self {
+    pub(super) fn new(
+        record: &'a RunRecord,
+        verdict: Option<&Verdict>,
+        seconds: f64,
+        path: &'a Path,
+    ) -> Self {
         let observations = &record.observations;
         let mut last_frame = BTreeMap::new();
         last_frame.extend(observations.time.last().map(|time| ("time", *time)));
@@ -66,11 +76,26 @@ impl<'a> Answer<'a> {
             limit: standing.map(|it| it.limit.name),
             milestones: record.milestones.clone(),
             unmet: unmet(record),
+            label: verdict.map(|it| it.label.name),
+            measures: verdict.into_iter().flat_map(values).collect(),
             last_frame,
             resumed_from: None,
             same_bits: None,
         }
     }
+}
+
+/// The label of a run by the rules of its scene's file, if it has any.
+pub(super) fn labelled(record: &RunRecord) -> Result<Option<Verdict>, ClassifyError> {
+    let has_rules = !Rules::of(&record.scene).is_empty();
+    let verdict = has_rules.then(|| classify(record, &Sieves::default()));
+    verdict.transpose()
+}
+
+/// The measures of a verdict by their names.
+fn values(verdict: &Verdict) -> impl Iterator<Item = (&'static str, Option<f64>)> {
+    let names = verdict.family.measures().map(|measure| measure.name);
+    names.zip(verdict.values.iter().copied())
 }
 
 /// What a run should have done and did not.
@@ -109,7 +134,7 @@ fn unmet(record: &RunRecord) -> Vec<String> {
 }
 
 /// How the run ended, and the state of its last frame.
-pub(super) fn summary(record: &RunRecord, seconds: f64) -> String {
+pub(super) fn summary(record: &RunRecord, verdict: Option<&Verdict>, seconds: f64) -> String {
     let observations = &record.observations;
     let steps = record.work as f64;
     let mut text = match &record.outcome {
@@ -132,6 +157,13 @@ pub(super) fn summary(record: &RunRecord, seconds: f64) -> String {
     }
     for unmet in unmet(record) {
         text += &format!("\n  {unmet}");
+    }
+    if let Some(verdict) = verdict {
+        text += &format!("\n  {:<14} {}", "label", verdict.label.name);
+        for (name, value) in values(verdict) {
+            let value = value.map_or("undefined".to_owned(), |value| format!("{value:.4e}"));
+            text += &format!("\n  {name:<14} {value:>11}");
+        }
     }
     if let Some(time) = observations.time.last() {
         text += &match record.scene.unit_of_time() {
