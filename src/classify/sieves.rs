@@ -86,6 +86,17 @@ sieves! {
 }
 
 impl Sieves {
+    /// The default sieves, whatever the rules of a scene's own file are.
+    pub fn without_rules() -> Self {
+        Self {
+            rules: Rules {
+                sieves: true,
+                ..Rules::default()
+            },
+            ..Self::default()
+        }
+    }
+
     /// The family of a scene with these rules.
     pub fn family(&self, scene: &Scene) -> &'static Family {
         let base = Family::of(scene);

@@ -140,9 +140,9 @@ pub(crate) fn of_document(document: &Document) -> Result<Sweep, LoadError> {
     }
     check_number_of_axes(&sweep.axes, &mut problems);
     check_axes(&sweep.axes, &mut problems);
+    let rules = rules_of(&mut sweep);
     check_sieves(&sweep, document.tree(), &mut problems);
     document.accept(&problems)?;
-    let rules = rules_of(&mut sweep);
     for scene in sweep.scenes_mut() {
         rules.ask_for_columns(scene);
         rules.choose_columns(scene);

@@ -110,7 +110,9 @@ impl Names for SceneNames<'_> {
         let columns = columns.map(|column| column.0.to_owned());
         let measures = Family::of(self.scene).measures_of_sieves();
         let measures = measures.map(|measure| measure.name.to_owned());
-        let names = columns.chain(measures);
+        let profiles = self.scene.output.profiles.iter();
+        let bins = profiles.flat_map(|profile| profile.columns());
+        let names = columns.chain(bins).chain(measures);
         names.chain(self.scene.numeric_keys()).collect()
     }
 }

@@ -1,6 +1,6 @@
 //! Sweeps whose runs are labelled and measured by rules of their own file.
 
-use crate::support::{TinySweep, Workplace, scene_file};
+use crate::support::{TinySweep, Workplace};
 
 /// Two labels by their rules, and two measures.
 const RULES: &str = r#"
@@ -26,7 +26,7 @@ over = { from = 0.0, to = 1.0 }
 quantity = "spin-up"
 "#;
 
-fn text(rules: &str) -> String {
+pub(super) fn text(rules: &str) -> String {
     format!(
         "{}{}",
         TinySweep::default().text(),
@@ -35,7 +35,7 @@ fn text(rules: &str) -> String {
 }
 
 /// The columns of a table by their names, row by row.
-fn cells(place: &Workplace, table: &str, names: &[&str]) -> Vec<Vec<String>> {
+pub(super) fn cells(place: &Workplace, table: &str, names: &[&str]) -> Vec<Vec<String>> {
     let text = place.read(table);
     let mut lines = text.lines().map(|line| line.split(',').collect::<Vec<_>>());
     let header = lines.next().unwrap();
@@ -261,172 +261,6 @@ fn bad_rules_are_refused_with_their_place() {
     }
 }
 
-/// A column that runs of the scene cannot have is refused before any run.
-#[test]
-fn columns_that_the_scene_cannot_have_are_refused() {
-    let place = Workplace::new();
-    for (column, why) in [
-        ("discharged", "spheres come and go only through"),
-        ("residual", "only with `output.ledger = true`"),
-    ] {
-        let when = format!("last({column}) > 3");
-        let label = format!("[[label]]\nname = \"leaving\"\nwhen = \"{when}\"\n");
-        place.write("tiny.toml", &text(&label));
-        place
-            .phase(&["sweep", "tiny.toml"])
-            .code(2)
-            .complains(&format!("runs of this scene have no column `{column}`"))
-            .complains("     ^")
-            .complains(why);
-    }
-}
-
-/// A record without a column that a rule reads is named, and the sweep with this rule makes those
-/// runs again that lack it, but none twice.
-#[test]
-fn further_columns_are_asked_for_by_rules() {
-    let place = Workplace::new();
-    place.write("tiny.toml", &text(""));
-    place.phase(&["sweep", "tiny.toml"]).code(0);
-    let plain = place.digests("results/tiny");
-    let rule = "[[measure]]\nname = \"touching\"\nvalue = \"max(share_at_wall)\"\n";
-    place.write("touching.toml", &text(rule));
-    place
-        .phase(&["classify", "results/tiny", "--sweep", "touching.toml"])
-        .code(1)
-        .complains("the rule \"touching\" reads `share_at_wall`, which this record lacks");
-    let sweep = ["sweep", "touching.toml", "--out", "results/tiny"];
-    place.phase(&sweep).code(0).says("6 runs labelled");
-    let touching = cells(&place, "results/tiny/labels.csv", &["touching"]);
-    assert!(
-        touching
-            .iter()
-            .all(|row| (0.0..=1.0).contains(&row[0].parse::<f64>().unwrap()))
-    );
-    let made = place.digests("results/tiny");
-    assert_ne!(plain, made);
-
-    // One record is made without the column again: only this one is run.
-    let records = place.records("results/tiny");
-    place
-        .phase(&["sweep", "tiny.toml", "--out", "plain"])
-        .code(0);
-    let one = &records[0];
-    std::fs::copy(
-        place.path(&format!("plain/records/{one}")),
-        place.path(&format!("results/tiny/records/{one}")),
-    )
-    .unwrap();
-    place
-        .phase(&sweep)
-        .code(0)
-        .complains("5 of 6 jobs are done already");
-    assert_eq!(place.digests("results/tiny"), made);
-
-    // A sweep that does not need the column any more takes the records as they are.
-    let sweep = ["sweep", "tiny.toml", "--out", "results/tiny"];
-    place
-        .phase(&sweep)
-        .code(0)
-        .complains("6 of 6 jobs are done already");
-    assert_eq!(place.digests("results/tiny"), made);
-}
-
-/// With `labels = "tank"` the sieves label the runs of which no rule holds.
-#[test]
-fn rules_come_before_the_sieves_of_a_named_family() {
-    let place = Workplace::new();
-    let rule = "[[label]]\nname = \"fast\"\nwhen = \"swirl.omega > 7\"\n";
-    place.write("plain.toml", &text(""));
-    place.write("both.toml", &format!("labels = \"tank\"\n{}", text(rule)));
-    for name in ["plain", "both"] {
-        place.phase(&["sweep", &format!("{name}.toml")]).code(0);
-    }
-    let [plain, both] = ["plain", "both"].map(|name| {
-        let table = format!("results/{name}/labels.csv");
-        cells(&place, &table, &["omega", "label", "settle_time"])
-    });
-    for (plain, both) in plain.iter().zip(&both) {
-        let fast = plain[0].parse::<f64>().unwrap() > 7.0;
-        let expected = if fast { "fast" } else { &plain[1] };
-        assert_eq!(both[1], expected);
-        assert_eq!(both[2], plain[2]);
-    }
-    assert!(both.iter().any(|row| row[1] == "fast"));
-    // Figures of the sieves stay.
-    place
-        .phase(&[
-            "plot",
-            "results/both",
-            "-f",
-            "settle-time",
-            "-f",
-            "fast-margin",
-        ])
-        .code(0);
-    for (family, message) in [
-        ("silo", "the scene is a tank, and no silo"),
-        ("vortex", "`vortex` is no family of scenes"),
-    ] {
-        place.write(
-            "bad.toml",
-            &format!("labels = \"{family}\"\n{}", text(rule)),
-        );
-        place
-            .phase(&["sweep", "bad.toml"])
-            .code(2)
-            .complains(message)
-            .complains("use `labels = \"tank\"`")
-            .complains("--> bad.toml:1:10");
-    }
-}
-
-/// The rules of a scene's own file label its runs, unless the sweep states its own.
-#[test]
-fn a_scene_may_bring_its_rules() {
-    let place = Workplace::new();
-    let rules = "[[label]]\nname = \"turning\"\nwhen = \"last(rotation) > 1e-3\"\n\
-                 [[measure]]\nname = \"touching\"\nvalue = \"max(share_at_wall)\"\n";
-    place.write("scene.toml", &(scene_file() + rules));
-    let ran = place.phase(&["run", "scene.toml"]).code(0);
-    ran.says("label          turning").says("touching");
-    let json = place.phase(&["run", "scene.toml", "--json"]).code(0).stdout;
-    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
-    assert_eq!(json["label"], "turning");
-    assert!(json["measures"]["turning_margin"].as_f64().unwrap() > 0.0);
-
-    let axis = "[[axis]]\nkey = \"swirl.omega\"\nvalues = [0.0, 4.0]\n";
-    let sweep = format!("scene = \"scene.toml\"\n{axis}");
-    place.write("own.toml", &sweep);
-    place.phase(&["sweep", "own.toml"]).code(0).says("turning");
-    let rows = cells(&place, "results/own/labels.csv", &["label", "touching"]);
-    assert_eq!(rows.len(), 2);
-    assert!(
-        rows.iter()
-            .all(|row| ["turning", "other"].contains(&&*row[0]))
-    );
-    assert!(rows.iter().all(|row| row[1].parse::<f64>().is_ok()));
-
-    place.write("sieved.toml", &format!("labels = \"tank\"\n{sweep}"));
-    place.phase(&["sweep", "sieved.toml"]).code(0);
-    let rows = cells(
-        &place,
-        "results/sieved/labels.csv",
-        &["label", "settle_time"],
-    );
-    assert!(rows.iter().all(|row| row[0] != "turning"));
-
-    let bad = scene_file() + &rules.replace("1e-3", "1e-3[m]");
-    place.write("scene.toml", &bad);
-    for command in [["run", "scene.toml"], ["check", "own.toml"]] {
-        place
-            .phase(&command)
-            .code(2)
-            .complains("compares rad/s with m")
-            .complains("--> scene.toml:");
-    }
-}
-
 /// A rule may look for a window anywhere in the run, and tells where it begins.
 #[test]
 fn a_window_anywhere_tells_since_when() {
@@ -461,100 +295,4 @@ fn a_window_anywhere_tells_since_when() {
         .parse()
         .unwrap();
     assert!((value - 2.0 * std::f64::consts::PI).abs() < 1e-6, "{value}");
-}
-
-/// Rules read what the sieves measure.
-#[test]
-fn rules_read_the_measures_of_the_sieves() {
-    let place = Workplace::new();
-    let rule = "[[label]]\nname = \"late\"\nwhen = \"settle_time > 0.01[s]\"\n\
-                [[measure]]\nname = \"half\"\nvalue = \"settle_time / 2\"\n";
-    place.write("plain.toml", &text(""));
-    place.write("own.toml", &text(rule));
-    for name in ["plain", "own"] {
-        place.phase(&["sweep", &format!("{name}.toml")]).code(0);
-    }
-    let plain = cells(&place, "results/plain/labels.csv", &["settle_time"]);
-    let own = cells(&place, "results/own/labels.csv", &["label", "half"]);
-    for (plain, own) in plain.iter().zip(&own) {
-        let settled: Option<f64> = plain[0].parse().ok();
-        let half: Option<f64> = own[1].parse().ok();
-        assert_eq!(half, settled.map(|it| it / 2.0));
-        let late = settled.is_some_and(|it| it > 0.01);
-        assert_eq!(own[0], if late { "late" } else { "other" });
-    }
-    place.write("bad.toml", &text(&rule.replace("0.01[s]", "0.01[m]")));
-    place
-        .phase(&["sweep", "bad.toml"])
-        .code(2)
-        .complains("compares s with m");
-}
-
-/// With `usual = "needed"` only what rules read is recorded; rules that read more make runs again.
-#[test]
-fn only_needed_columns_are_recorded() {
-    let place = Workplace::new();
-    let rule = "[[label]]\nname = \"high\"\nwhen = \"last(height_mean) > -0.1\"\n";
-    let needed = "[scene.output]\nusual = \"needed\"\n";
-    place.write("all.toml", &text(rule));
-    place.write("few.toml", &(text(rule) + needed));
-    for name in ["all", "few"] {
-        place.phase(&["sweep", &format!("{name}.toml")]).code(0);
-    }
-    place
-        .phase(&["check", "few.toml", "--no-trial"])
-        .code(0)
-        .says("of the usual ones only height_mean")
-        .says("without the figures speeds, energies, state-energies");
-    let table = |name: &str| {
-        let table = format!("results/{name}/labels.csv");
-        cells(&place, &table, &["id", "label", "high_value"])
-    };
-    assert_eq!(table("all"), table("few"));
-    let columns = |name: &str| {
-        let record = &place.records(&format!("results/{name}"))[0];
-        let path = place.path(&format!("results/{name}/records/{record}"));
-        let observations = phase::store::read_record(&path).unwrap().observations;
-        let names = observations.scalars();
-        let names: Vec<String> = names.iter().map(|it| it.name.to_owned()).collect();
-        (
-            names,
-            observations.profile.ncols(),
-            observations.rising.len(),
-        )
-    };
-    assert_eq!(
-        columns("few").0,
-        ["height_mean", "height_max", "speed_mean"]
-    );
-    assert_eq!((columns("few").1, columns("few").2), (0, 0));
-    assert!(columns("all").0.len() > 8);
-    place
-        .phase(&["plot", "results/few", "-f", "energies"])
-        .code(1)
-        .complains("shows `kinetic`, and the scene records only");
-    place
-        .phase(&["plot", "results/all", "-f", "energies"])
-        .code(0);
-
-    // Sieves read all, and say so; a rule that reads another column makes the runs again.
-    place.write("sieves.toml", &text(""));
-    place
-        .phase(&["classify", "results/few", "--sweep", "sieves.toml"])
-        .code(1)
-        .complains("`output.usual`");
-    place.write(
-        "more.toml",
-        &text(&rule.replace("height_mean", "hole_radius")),
-    );
-    place
-        .phase(&["sweep", "more.toml", "--out", "results/few", "--no-plot"])
-        .code(0)
-        .says("6 runs labelled");
-    assert!(columns("few").0.contains(&"hole_radius".to_owned()));
-    // What has more than is needed stays.
-    place
-        .phase(&["sweep", "few.toml", "--no-plot"])
-        .code(0)
-        .complains("6 of 6 jobs are done already");
 }

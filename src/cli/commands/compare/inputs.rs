@@ -146,16 +146,25 @@ fn of_family(
                 own.name, family.name
             )));
         }
-        let verdict = classify(record, &Sieves::default());
-        let verdict = verdict.map_err(|error| refused(error.to_string()))?;
-        let measures = family.measures().filter(|measure| !measure.is_evidence);
+        // What all runs of the family have, and what the rules of its scene measure besides.
+        let of_family = Sieves::without_rules();
+        let verdicts = [of_family, Sieves::default()].map(|sieves| classify(record, &sieves));
+        let [of_family, of_rules] = verdicts;
+        let of_family = of_family.map_err(|error| refused(error.to_string()))?;
+        let verdict = of_rules.map_err(|error| refused(error.to_string()))?;
+        let own = verdict.family.measures();
+        let own = own.filter(|measure| of_family.family.measures().all(|it| it != *measure));
+        let measures = family.measures().chain(own);
+        let measures = measures.filter(|measure| !measure.is_evidence);
         let exact = |value: f64| Estimate {
             value,
             half_width: f64::INFINITY,
         };
         let value = |measure: &Measure| {
             let key = [measure.name.replace('_', " "), measure.unit.to_owned()];
-            (key, verdict.value(measure.name).map(exact))
+            let value = of_family.value(measure.name);
+            let value = value.or_else(|| verdict.value(measure.name));
+            (key, value.map(exact))
         };
         Ok(Column {
             name: format!("{name}: {}", verdict.label.name),
