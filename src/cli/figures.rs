@@ -6,7 +6,7 @@ use phase::classify::{Family, LabelTable};
 use phase::plot::{self, Svg};
 use phase::record::Program;
 use phase::store;
-use phase::sweep::{Folder, Selection, Sweep};
+use phase::sweep::{Folder, Selection, Sweep, read_failures};
 use std::path::{Path, PathBuf};
 
 /// The figure of refined sweeps.
@@ -91,10 +91,13 @@ pub(super) fn drawn(
     (points, times): (&[Selection], Option<[f64; 2]>),
 ) -> Result<Svg, Failure> {
     let refining = folder.read_refining(sweep)?;
+    // A table that cannot be read tells of no failure; `phase status` refuses it.
+    let failures = read_failures(&sweep.axes, &folder.failures()).unwrap_or_default();
     let source = plot::Source {
         sweep,
         refining: refining.as_ref(),
         table,
+        failures: &failures,
         record: &|id| folder.read_record(id),
         points,
         times,

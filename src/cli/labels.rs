@@ -199,7 +199,7 @@ pub(super) fn tell_of_labels(labelled: &Labelled, folder: &Folder, console: &Con
     match &labelled.since {
         Since::Nothing => {}
         Since::Unreadable(error) => console.note(format_args!(
-            "cannot compare with the earlier labels: {error}"
+            "it is not counted which labels changed: {error}"
         )),
         Since::Labels {
             changes,

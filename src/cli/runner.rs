@@ -202,9 +202,9 @@ impl RunsMade {
         self.tell_of_failures(sweep, console);
     }
 
-    /// Names the jobs that failed.
+    /// Names the jobs that failed; of those that failed alike the first.
     pub(super) fn tell_of_failures(&self, sweep: &Sweep, console: &Console) {
-        name_first(&names(&self.report.failures, sweep), |name| {
+        name_first(&names_of_kinds(&self.report.failures, sweep), |name| {
             console.error(format_args!("failed: {name}"));
         });
         if let Some(error) = &self.report.unnoted {
@@ -261,11 +261,35 @@ impl RunsMade {
 
 /// Names jobs, each with what went wrong.
 fn names(jobs: &[JobFailure], sweep: &Sweep) -> Vec<String> {
-    let named = |job: &JobFailure| {
-        let name = describe(&sweep.axes, &job.values, job.seed);
-        format!("{name} (job {}): {}", job.id, job.reason)
-    };
+    let named = |job: &JobFailure| format!("{}: {}", name_of(job, sweep), job.reason);
     jobs.iter().map(named).collect()
+}
+
+/// Says what went wrong with jobs, once for those with which the same did.
+fn names_of_kinds(jobs: &[JobFailure], sweep: &Sweep) -> Vec<String> {
+    let mut places = HashMap::new();
+    let mut kinds: Vec<(&JobFailure, usize)> = Vec::new();
+    for job in jobs {
+        let place = *places.entry(job.kind()).or_insert(kinds.len());
+        match kinds.get_mut(place) {
+            Some((_, count)) => *count += 1,
+            None => kinds.push((job, 1)),
+        }
+    }
+    let named = |(first, count): &(&JobFailure, usize)| match count {
+        1 => format!("{}: {}", name_of(first, sweep), first.reason),
+        count => format!(
+            "{count} jobs: {}; the first: {}",
+            first.reason,
+            name_of(first, sweep)
+        ),
+    };
+    kinds.iter().map(named).collect()
+}
+
+fn name_of(job: &JobFailure, sweep: &Sweep) -> String {
+    let name = describe(&sweep.axes, &job.values, job.seed);
+    format!("{name} (job {})", job.id)
 }
 
 /// Says what is done already, and what is run again and why.

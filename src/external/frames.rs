@@ -2,7 +2,7 @@
 
 use super::run_folder::RunFolder;
 use super::table::{self, NumberTable};
-use crate::document::shown;
+use crate::document::{shown, suggest};
 use crate::scene::{ExternalProgram, ProgramTable};
 
 /// The rows that all tables have.
@@ -48,8 +48,14 @@ impl TableFrames {
             let place = table.names.iter().position(|it| it == name);
             place.ok_or_else(|| {
                 let known = table::list(&table.names);
+                // Any two names of one or two letters are near.
+                let names = table.names.iter().filter(|_| name.chars().count() > 2);
+                let near = suggest(name, names.map(String::as_str));
+                let near = near.map_or(String::new(), |near| {
+                    format!("did you mean `{}`? ", shown(near))
+                });
                 format!(
-                    "there is no column `{}`; its columns are {known}",
+                    "there is no column `{}`; {near}its columns are {known}",
                     shown(name)
                 )
             })

@@ -103,13 +103,10 @@ impl ExternalSimulation {
         };
         let program = shown(words.first().map_or("", String::as_str));
         let refuse = |error: io::Error| match error.kind() {
-            io::ErrorKind::NotFound => {
-                format!(
-                    "cannot start `{program}`: there is no such program, or no interpreter for it; \
-                     install it, write its full path, or write the program and its words as \
-                     separate words"
-                )
-            }
+            io::ErrorKind::NotFound => format!(
+                "cannot start `{program}`: there is no such program, or no interpreter for it; {}",
+                help_to_start(&program)
+            ),
             _ => format!("cannot start `{program}`: {error}"),
         };
         let output = self.output.as_ref().ok_or("its folder is gone")?;
@@ -215,6 +212,14 @@ impl ExternalSimulation {
         }
         self.run_folder.note_failure(&told);
         RunStage::Failed(told)
+    }
+}
+
+/// What to do about a program that is not there.
+fn help_to_start(program: &str) -> String {
+    match program.split_whitespace().collect::<Vec<_>>() {
+        words if words.len() > 1 => format!("split it into words: {words:?}"),
+        _ => "install it, or write its full path".to_owned(),
     }
 }
 

@@ -222,6 +222,7 @@ mod tests {
             sweep: &sweep,
             refining: None,
             table: &table,
+            failures: &[],
             record: &|id| panic!("the grid read the record {id}"),
             points: &[],
             times: None,

@@ -15,6 +15,7 @@ use super::{PlotError, Source};
 use crate::classify::Point;
 use plotters::element::PathElement;
 use plotters::style::{BLACK, Color, RGBColor};
+use std::collections::HashSet;
 
 /// Height of a panel without a vertical axis, and beside a colour bar.
 const STRIP: [i32; 2] = [px(56), px(120)];
@@ -83,6 +84,8 @@ pub(super) struct Diagram<'a, P = Point> {
     pub(super) look: &'a dyn Fn(&P) -> Option<Look>,
     /// What a cell without a value is called.
     pub(super) empty: String,
+    /// Cells without a value because the runs failed: panels, and places in them.
+    pub(super) failed: HashSet<(usize, usize)>,
     /// First entries of the legend; the curve and empty cells follow.
     pub(super) legend: Vec<LegendEntry>,
     pub(super) bar: Option<ColorBar>,
@@ -171,16 +174,25 @@ impl<P> Diagram<'_, P> {
         panels.map(frame).collect()
     }
 
-    fn looks(&self, panel: &GridPanel<P>) -> Vec<Option<Look>> {
-        let look = |cell: &Option<P>| cell.as_ref().and_then(self.look);
-        panel.cells.iter().map(look).collect()
+    fn looks(&self, panel: usize) -> Vec<Option<Look>> {
+        let look = |(place, cell): (usize, &Option<P>)| match cell {
+            Some(cell) => (self.look)(cell),
+            None => {
+                let is_failed = self.failed.contains(&(panel, place));
+                is_failed.then(|| Look::new(Fill::Cross, None))
+            }
+        };
+        let cells = self.grid.panels[panel].cells.iter().enumerate();
+        cells.map(look).collect()
     }
 
     /// Entries of the legend but for curves.
     fn entries(&self) -> Vec<LegendEntry> {
         let mut entries = self.legend.clone();
-        let empty = |panel: &GridPanel<P>| self.looks(panel).contains(&None);
-        if self.grid.panels.iter().any(empty) {
+        if !self.failed.is_empty() {
+            entries.push(LegendEntry::new(LegendKey::Fill(Fill::Cross), "failed"));
+        }
+        if (0..self.grid.panels.len()).any(|panel| self.looks(panel).contains(&None)) {
             entries.push(LegendEntry::new(LegendKey::Fill(Fill::Hatch), &self.empty));
         }
         entries
@@ -196,7 +208,7 @@ impl<P> Diagram<'_, P> {
         let axes = page.axes(sheet, index)?;
         let plot = axes.plot();
         let panel = &self.grid.panels[index];
-        let looks = self.looks(panel);
+        let looks = self.looks(index);
         let cells = || self.cells(panel, plot).into_iter().zip(&looks);
         if looks.contains(&None) {
             // One pattern under all cells: most of a refined sweep's are empty.

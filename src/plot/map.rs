@@ -12,6 +12,7 @@ use crate::classify::{FAMILIES, Family, Measure, MeasureRange, Point};
 use crate::scene::Units;
 use crate::statistics::{Estimate, mean_share_interval};
 use plotters::style::RGBColor;
+use std::collections::HashSet;
 use std::sync::LazyLock;
 
 /// A map of one measure of the verdicts.
@@ -45,8 +46,16 @@ pub(super) fn of_rules(name: &str, family: &'static Family) -> Option<MeasureMap
     of_family(family).find(|map| has_rules && map.name == name)
 }
 
+/// The figures of measures and labels that the rules of a file added: their names, and what they
+/// show.
+pub fn figures_of_rules(family: &'static Family) -> Vec<(String, String)> {
+    let maps = of_family(family).filter(|_| !FAMILIES.contains(&family));
+    maps.map(|map| (map.name.clone(), map.description()))
+        .collect()
+}
+
 pub(super) fn figure(map: &'static MeasureMap) -> Figure {
-    let description = format!("map: {}", super::text::plain(&map.label(Units::Si)));
+    let description = map.description();
     Figure::of_sweep(&map.name, description, |source| map.draw(source)).for_families([map.family])
 }
 
@@ -56,6 +65,10 @@ pub(super) fn of_measures(family: &'static Family) -> impl Iterator<Item = Measu
 }
 
 impl MeasureMap {
+    fn description(&self) -> String {
+        format!("map: {}", super::text::plain(&self.label(Units::Si)))
+    }
+
     /// Quantity and unit, with markup.
     pub(super) fn label(&self, units: Units) -> String {
         let quantity = self.measure.quantity;
@@ -114,6 +127,7 @@ impl MeasureMap {
                 Some(_) => "no value".to_owned(),
                 None => format!("{label}: no values"),
             },
+            failed: HashSet::new(),
             legend: Vec::new(),
             bar: bar.clone(),
         }

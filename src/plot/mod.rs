@@ -56,6 +56,7 @@ mod words;
 pub use beverloo::{FittedLaw, fitted_lines};
 pub use error::{PlotError, PlotErrorKind};
 pub use figure::{Figure, figures};
+pub use map::figures_of_rules;
 pub use records::{RecordSet, captions, differences};
 pub use svg::Svg;
 
@@ -66,7 +67,7 @@ use crate::study::ablation::{Ablated, Ablation};
 use crate::study::accuracy::{AccuracyStudy, Evaluation};
 use crate::study::comparison::{Comparison, Cost, RunRow};
 use crate::study::stability::StabilityStudy;
-use crate::sweep::{Refining, Selection, Sweep};
+use crate::sweep::{Failure, Refining, Selection, Sweep};
 use figure::Draw;
 use runs::Runs;
 use svg::Origin;
@@ -90,6 +91,8 @@ pub struct Source<'a> {
     pub refining: Option<&'a Refining>,
     /// Labels of its runs.
     pub table: &'a LabelTable,
+    /// Its jobs that failed.
+    pub failures: &'a [Failure],
     /// Fetches the record of a run by its identity.
     pub record: &'a dyn Fn(&str) -> Result<RunRecord, StoreError>,
     /// Points to show in figures of single runs: values by name of an axis, and `seed`. None for

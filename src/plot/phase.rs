@@ -17,7 +17,7 @@ pub(super) fn figure() -> Figure {
     Figure::of_sweep(
         NAME,
         "phase diagram: the majority label at every point, paler and with a dot where seeds \
-         disagree, hatched where a run did not become steady",
+         disagree, hatched where a run did not become steady, a cross where all runs failed",
         draw,
     )
 }
@@ -58,6 +58,7 @@ pub(super) fn with_diagram(
         grid: &grid,
         look: &|point| Some(look(point, is_unsteady(point))),
         empty: "not run".to_owned(),
+        failed: grid.failed(source.failures),
         legend,
         bar: None,
     })

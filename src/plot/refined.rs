@@ -13,7 +13,7 @@ use super::{Figure, PlotError, Source, palette};
 use crate::refine::{self, Code};
 use crate::sweep::{FAILED, Learnt};
 use plotters::style::{BLACK, RGBColor, WHITE};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashSet};
 
 /// Most panels along one axis.
 const MOST_PANELS: usize = 4;
@@ -66,6 +66,7 @@ fn draw(source: &Source<'_>) -> Result<Svg, PlotError> {
         grid: &grid,
         look: &|cell: &RefinedCell| Some(look(source, *cell, is_plane)),
         empty: "no value".to_owned(),
+        failed: HashSet::new(),
         legend: legend(source, &cells().copied().collect::<Vec<_>>()),
         bar: None,
     };

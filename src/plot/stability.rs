@@ -37,6 +37,7 @@ fn draw(
         sweep,
         refining: None,
         table: &table,
+        failures: &[],
         record: &|id| {
             Err(StoreError::content(
                 Path::new(id),

@@ -67,6 +67,8 @@ pub(super) enum Fill {
     CrossHatch,
     /// Points on white: seeds without a majority.
     Stipple,
+    /// One cross on grey: runs that failed.
+    Cross,
 }
 
 /// Distance of the lines and points of patterns.
@@ -94,7 +96,22 @@ pub(super) fn paint(sheet: &FigureSheet<'_>, corners: Corners, with: Fill) -> Dr
             fill(sheet, corners, WHITE)?;
             stipple(sheet, corners)
         }
+        Fill::Cross => {
+            fill(sheet, corners, palette::EMPTY)?;
+            cross(sheet, corners)
+        }
     }
+}
+
+/// Draws a cross in the middle of a rectangle.
+fn cross(sheet: &FigureSheet<'_>, [(left, top), (right, bottom)]: Corners) -> Drawn {
+    let (x, y) = (left.midpoint(right), top.midpoint(bottom));
+    let arm = (right - left).min(bottom - top).min(LARGEST_CELL) / 4;
+    for turned in [arm, -arm] {
+        let ends = [(x - arm, y - turned), (x + arm, y + turned)];
+        sheet.draw(&PathElement::new(ends, BLACK.stroke_width(12)))?;
+    }
+    Ok(())
 }
 
 /// Draws oblique lines in a rectangle, to the right upward or downward.

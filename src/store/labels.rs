@@ -187,10 +187,49 @@ fn read_header(
         .find_map(either)
         .ok_or_else(|| match header.is_empty() {
             true => "this file is empty".to_owned(),
-            false => "this is not the header line of a table of labels, which names id, the axes, \
-                      seed, label, code and the measures of a family"
-                .to_owned(),
+            false => own
+                .and_then(|family| of_other_rules(header, family))
+                .unwrap_or_else(|| {
+                    "this is not the header line of a table of labels, which names id, the axes, \
+                     seed, label, code and the measures of a family"
+                        .to_owned()
+                }),
         })
+}
+
+/// What differs where the header line is of other labels and measures than those of a family.
+fn of_other_rules(header: &StringRecord, family: &Family) -> Option<String> {
+    let columns: Vec<&str> = header.iter().collect();
+    let last = columns.windows(VERDICT.len()).position(|it| it == VERDICT);
+    let written = columns[last? + VERDICT.len()..].iter().copied();
+    let written = names_of_rules(written.filter(|name| *name != STEADY));
+    let own = names_of_rules(family.measures().map(|it| it.name));
+    let only = |names: &[&str], others: &[&str]| -> String {
+        let names = names.iter().filter(|name| !others.contains(name));
+        names.copied().collect::<Vec<_>>().join(", ")
+    };
+    let parts = [
+        ("has", only(&written, &own)),
+        ("lacks", only(&own, &written)),
+    ];
+    let parts = parts.iter().filter(|(_, names)| !names.is_empty());
+    let parts: Vec<String> = parts
+        .map(|(verb, names)| format!("{verb} {names}"))
+        .collect();
+    Some(format!(
+        "this table is of other labels or measures than the sweep: it {}",
+        parts.join(" and ")
+    ))
+    .filter(|_| !parts.is_empty())
+}
+
+/// Names of measures; of those that a label leaves one, its own.
+fn names_of_rules<'a>(measures: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
+    let is_more = |name: &str| name.ends_with("_value") || name.ends_with("_threshold");
+    let names = measures.filter(|name| !is_more(name));
+    names
+        .map(|name| name.strip_suffix("_margin").unwrap_or(name))
+        .collect()
 }
 
 fn read_row(

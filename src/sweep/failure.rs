@@ -25,4 +25,15 @@ impl Failure {
             reason: reason.into(),
         }
     }
+
+    /// What the failure has in common with those of other jobs: the reason without the identity,
+    /// which names its files.
+    pub fn kind(&self) -> String {
+        self.reason.replace(&self.id, "")
+    }
+
+    /// Whether another job failed for the same reason.
+    pub fn is_like(&self, other: &Self) -> bool {
+        self.kind() == other.kind()
+    }
 }

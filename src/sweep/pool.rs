@@ -3,7 +3,7 @@
 use super::backend::{Backend, Batch, Report, Results, Wishes};
 use super::plan::{ForeignRecord, Plan, Standing};
 use super::records::Records;
-use super::{Folder, FolderError, Job, PlanError, Shard, Sweep, work};
+use super::{Folder, FolderError, Job, PlanError, Shard, Sweep, read_failures, work};
 use crate::refusal::Refusal;
 use crate::resume::DEFAULT_INTERVAL;
 use std::time::Duration;
@@ -90,7 +90,13 @@ impl<'a> Pool<'a> {
                 let _ = records.checkpoints(job).remove();
             }
         }
-        let report = Batch::new(plan.pending(), &records, self.wishes).run_on(self.backend);
+        let mut batch = Batch::new(plan.pending(), &records, self.wishes);
+        if sweep.scene.is_external() && plan.labelled().next().is_none() {
+            // A table that cannot be read tells of no failure.
+            let known = read_failures(&sweep.axes, &self.folder.failures()).unwrap_or_default();
+            batch = batch.trying_first(known);
+        }
+        let report = batch.run_on(self.backend);
         Ok(Report {
             others: self.left_to_others(plan)?,
             ..report
@@ -121,7 +127,7 @@ mod tests {
     use crate::store::{self, Lease};
     use crate::sweep::failures::FailureTable;
     use crate::sweep::{BackendError, Begin, Event, LocalThreads, Status};
-    use crate::sweep::{Claim, Failure, read_failures};
+    use crate::sweep::{Claim, Failure};
     use std::ops::ControlFlow;
     use std::sync::Mutex;
     use std::sync::atomic::{AtomicBool, Ordering};

@@ -89,6 +89,27 @@ fn the_cheapest_setting_of_a_motion_is_the_largest_step_within_the_tolerance() {
     assert_eq!(cheapest, Some("reference"), "{found:#}");
 }
 
+/// Symptom: the file of a study whose table `[scene]` has a word for its accuracy was refused: no
+/// integrator. Cause: the scene was read without the keys that follow from that word.
+#[test]
+fn a_scene_in_the_file_may_have_a_word_for_its_accuracy() {
+    let place = Workplace::new();
+    let scene = SCENE.replace("dt = 2e-4\n", "");
+    let study = MOTION
+        .replace("key = \"time.dt\"", "key = \"guards.overlap\"")
+        .replace("[4e-4, 2e-4, 1e-4, 5e-5]", "[2.0, 4.0]")
+        .replace("\"time.dt\" = 6.25e-6", "accuracy = \"reference\"");
+    let guards = "[scene.guards]\noverlap = 5.0\n";
+    place.write(
+        "study.toml",
+        &format!("{study}[scene]\naccuracy = \"draft\"\n{scene}{guards}"),
+    );
+    place
+        .phase(&["check", "study.toml", "--no-trial"])
+        .code(0)
+        .says("accuracy");
+}
+
 /// Symptom: "order 0.10" of a key without influence. Cause: an end of the range of orders passed for
 /// an order.
 #[test]

@@ -71,6 +71,7 @@ pub(crate) fn source<'a>(
         sweep,
         refining: None,
         table,
+        failures: &[],
         record: &|id| panic!("a figure of a table read the record {id}"),
         points: &[],
         times: None,

@@ -3,6 +3,7 @@
 mod answer;
 mod describe;
 mod program;
+mod results;
 mod study;
 mod walls;
 
@@ -78,6 +79,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     overlaps::warn_of_jobs(&jobs, &sweep.axes, console);
     if kind == FileKind::Sweep {
         labels::warn_of_windows(&sweep, &jobs, console);
+        results::describe_results(&sweep, &arguments.file, console)?;
     }
     let walls = walls::weakest(&jobs);
     if let Some(wall) = &walls {

@@ -3,8 +3,7 @@
 use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::folders::ANOTHER_FOLDER;
-use crate::cli::values;
-use crate::cli::{folders, format};
+use crate::cli::{folders, format, runs, values};
 use phase::observe::Snapshot;
 use phase::record::{RunRecord, States};
 use phase::store::{self, DumpName, StoreError};
@@ -203,7 +202,7 @@ fn targets(arguments: &Arguments) -> Result<Vec<Result<PathBuf, Failure>>, Failu
         ))
         .at(out));
     }
-    let of_record = |path: &PathBuf| target(arguments, path).map_err(Failure::from);
+    let of_record = |path: &PathBuf| target(arguments, path);
     let mut targets: Vec<Result<PathBuf, Failure>> =
         arguments.records.iter().map(of_record).collect();
     if arguments.to == Format::Dump {
@@ -250,7 +249,7 @@ fn tell_apart(records: &[PathBuf], targets: &mut [Result<PathBuf, Failure>]) {
 }
 
 /// The target of an export: its main file, or the folder of its arrays.
-fn target(arguments: &Arguments, record_path: &Path) -> Result<PathBuf, StoreError> {
+fn target(arguments: &Arguments, record_path: &Path) -> Result<PathBuf, Failure> {
     // Refuse what is no record before anything is written.
     store::read_record_header(record_path)?;
     let extension = arguments.to.extension();
@@ -271,6 +270,7 @@ fn target(arguments: &Arguments, record_path: &Path) -> Result<PathBuf, StoreErr
         // The name of a dump says what the record holds.
         Format::Dump => {
             let record = store::read_record(record_path)?;
+            runs::refuse_without_spheres(&record, record_path)?;
             folder.join(DumpName::of_record(&record).to_string())
         }
         Format::Npy | Format::Svg => folder.join(stem),
@@ -285,6 +285,10 @@ fn export(
     console: &Console,
 ) -> Result<(), Failure> {
     let record = &store::read_record(path).map_err(Failure::failed)?;
+    // Without spheres there still is a table of observables.
+    if arguments.to != Format::Csv {
+        runs::refuse_without_spheres(record, path)?;
+    }
     let states = record.states();
     let every = arguments.every.unwrap_or(1);
     let all = match arguments.to {

@@ -14,6 +14,7 @@ use folder::{FitEntry, FolderAnswer};
 use phase::plot::{self, Figure};
 use phase::sweep::{Folder, Selection, parse_point};
 use serde::Serialize;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// Draw the figures of a results folder (from its labels.csv and records) or of single records, as
@@ -144,7 +145,7 @@ struct Answer {
 /// A figure that can be drawn.
 #[derive(Serialize)]
 struct Listed {
-    name: &'static str,
+    name: String,
     description: String,
     /// The runs that a figure of single runs shows without --point.
     default_runs: Option<&'static str>,
@@ -155,6 +156,7 @@ struct Listed {
 impl Answer {
     /// Prints name and description of every figure, or of the figures that can be drawn from `dir`.
     fn list(&mut self, dir: Option<&Path>, console: &Console) -> Result<(), Failure> {
+        let mut of_rules = BTreeMap::new();
         let known: Vec<&Figure> = match dir {
             None => {
                 let figures = plot::figures().iter();
@@ -163,11 +165,11 @@ impl Answer {
                     .collect()
             }
             Some(path) if path.is_file() => records::drawable(path)?,
-            Some(dir) => self.drawable(dir, console)?,
+            Some(dir) => self.drawable(dir, &mut of_rules, console)?,
         };
         let of_record = dir.is_some_and(Path::is_file);
         let figures = known.into_iter().map(|figure| Listed {
-            name: figure.name,
+            name: figure.name.to_owned(),
             description: figure.description.clone(),
             default_runs: figure.default_runs().filter(|_| !of_record),
             families: match of_record {
@@ -175,7 +177,13 @@ impl Answer {
                 false => figure.families.iter().map(|it| it.name).collect(),
             },
         });
-        self.figures = figures.collect();
+        let of_rules = of_rules.into_iter().map(|(name, description)| Listed {
+            name,
+            description,
+            default_runs: None,
+            families: Vec::new(),
+        });
+        self.figures = figures.chain(of_rules).collect();
         for figure in &self.figures {
             figure.print(dir.is_none(), console);
         }
@@ -183,7 +191,13 @@ impl Answer {
     }
 
     /// The figures that can be drawn from the results folders at `dir`, found by drawing them.
-    fn drawable(&mut self, dir: &Path, console: &Console) -> Result<Vec<&'static Figure>, Failure> {
+    /// Adds those of the rules of their files, by name, with what they show.
+    fn drawable(
+        &mut self,
+        dir: &Path,
+        of_rules: &mut BTreeMap<String, String>,
+        console: &Console,
+    ) -> Result<Vec<&'static Figure>, Failure> {
         let of_sweeps = plot::figures().iter().filter(|figure| figure.is_of_sweep());
         let mut is_drawn: Vec<(&Figure, bool)> = of_sweeps.map(|figure| (figure, false)).collect();
         let found = Folder::find(dir)?;
@@ -194,6 +208,7 @@ impl Answer {
                 let of_folder = (folder, &sweep, &table);
                 *is_drawn = drawn(figure.name, of_folder, (&[], None)).is_ok();
             }
+            of_rules.extend(plot::figures_of_rules(table.family));
             Ok(FolderAnswer::new(folder))
         })?;
         let drawn = is_drawn.into_iter().filter(|(_, is_drawn)| *is_drawn);

@@ -144,7 +144,7 @@ pub(super) fn given_names(names: &[String], width: usize) -> Result<Vec<String>,
 }
 
 /// What to do about names that are missing.
-pub(super) const NAMES_NEEDED: &str = "list one name for each column in `header`";
+pub(super) const NAMES_NEEDED: &str = "give `header = [...]` with one name for each column";
 
 /// Checks that every name means one column.
 pub(super) fn check_names(names: &[String]) -> Result<(), (String, &'static str)> {

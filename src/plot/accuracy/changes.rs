@@ -10,6 +10,7 @@ use crate::plot::svg::Svg;
 use crate::record::Program;
 use crate::study::accuracy::{AccuracyStudy, Errors, Evaluation, Outcome};
 use crate::study::comparison::{Comparison, PointDisagreement};
+use std::collections::HashSet;
 
 /// Most settings that are shown: those that change most labels.
 const MOST_PANELS: usize = 9;
@@ -61,6 +62,7 @@ pub(super) fn draw(
         grid: &grid,
         look: &|value: &f64| Some(Look::new(Fill::Color(bar.color(*value)), None)),
         empty: "not run".to_owned(),
+        failed: HashSet::new(),
         legend: Vec::new(),
         bar: Some(bar.clone()),
     };

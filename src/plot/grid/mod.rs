@@ -6,8 +6,9 @@ use super::page::columns;
 use super::{PlotError, Source};
 use crate::classify::{LabelTable, Point};
 use crate::grid::Axis;
-use crate::sweep::Sweep;
+use crate::sweep::{Failure, Sweep};
 pub(super) use axis::{GridAxis, strip};
+use std::collections::HashSet;
 
 /// One of the small multiples; its cells hold points of a sweep, or of something else.
 #[derive(Clone, Debug)]
@@ -101,20 +102,29 @@ impl PanelGrid {
             }));
         }
         for point in points {
-            let place = |axis: &Option<GridAxis>| match axis {
-                Some(axis) => axis.position(&point.values),
-                None => Some(0),
-            };
-            let places = (
-                self.x.position(&point.values),
-                place(&self.y),
-                place(&self.columns),
-                place(&self.rows),
-            );
-            if let (Some(x), Some(y), Some(column), Some(row)) = places {
-                self.panels[column + row * columns.len()].cells[x + y * horizontal] = Some(point);
+            if let Some((panel, cell)) = self.place(&point.values) {
+                self.panels[panel].cells[cell] = Some(point);
             }
         }
+    }
+
+    /// Cells without a point where jobs failed: panels, and places in them.
+    pub(super) fn failed(&self, failures: &[Failure]) -> HashSet<(usize, usize)> {
+        let places = failures.iter().filter_map(|it| self.place(&it.values));
+        let is_empty = |&(panel, cell): &(usize, usize)| self.panels[panel].cells[cell].is_none();
+        places.filter(is_empty).collect()
+    }
+
+    /// The panel and the cell of a point of the sweep.
+    fn place(&self, values: &[f64]) -> Option<(usize, usize)> {
+        let along = |axis: &Option<GridAxis>| match axis {
+            Some(axis) => axis.position(values),
+            None => Some(0),
+        };
+        let columns = self.columns.as_ref().map_or(1, |axis| axis.values.len());
+        let panel = along(&self.columns)? + along(&self.rows)? * columns;
+        let cell = self.x.position(values)? + along(&self.y)? * self.x.values.len();
+        Some((panel, cell))
     }
 }
 

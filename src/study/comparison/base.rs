@@ -3,9 +3,7 @@
 use super::Setting;
 use crate::classify::Family;
 use crate::document::{Document, LoadError, Problem, number};
-use crate::grid::{
-    PointScenes, SceneTree, Variant, base_scene, check_change, give_the_step_to_an_axis,
-};
+use crate::grid::{PointScenes, SceneTree, Variant, check_change, give_the_step_to_an_axis};
 use crate::run::{self, Reading};
 use crate::scene::{Change, FileKind, Friction, Scene, is_within};
 use crate::sweep::{self, Sweep};
@@ -23,10 +21,15 @@ impl Base {
     /// What the key `scene` of a study says: the path of a scene or sweep, or a scene itself.
     pub(crate) fn of_entry(entry: &Value, document: &Document) -> Result<Self, LoadError> {
         let Some(path) = entry.as_str() else {
-            let sweep = base_scene(entry, document, Reading::RUN)?;
+            let source = SceneTree::within(entry, document.folder());
+            // The entry is as the file has it, without the keys that follow from others.
+            let scene = source.scene().map_err(|problems| {
+                let placed = problems.into_iter().map(|it| it.within("scene"));
+                document.refuse(&placed.collect::<Vec<_>>())
+            })?;
             return Ok(Self {
-                sweep: Sweep::of_scene(sweep),
-                source: SceneTree::within(entry, document.folder()),
+                sweep: Sweep::of_scene(scene),
+                source,
             });
         };
         let file = Document::read(&document.folder().join(path));

@@ -1,6 +1,7 @@
 //! A batch: jobs, who has claimed which, and what has become of them.
 
 use super::threads::panic_message;
+use super::trials::Trials;
 use super::{Backend, BackendError, Claim, Event, Halt, Report, Results, Wishes};
 use crate::record::RunRecord;
 use crate::resume::Checkpoints;
@@ -28,6 +29,8 @@ pub struct Batch<'a> {
     /// Those to be run, the longest first, so that no worker begins one when the others are done.
     /// Those of one length are in the order of the sweep.
     jobs: Vec<&'a Job>,
+    /// Those of them that decide whether others are begun.
+    trials: Option<Trials>,
     results: &'a dyn Results,
     wishes: Wishes<'a>,
     tally: Mutex<Tally>,
@@ -100,10 +103,21 @@ impl<'a> Batch<'a> {
             all,
             places,
             jobs,
+            trials: None,
             results,
             wishes,
             tally: Mutex::new(tally),
         }
+    }
+
+    /// The same with a few jobs first, spread over the sweep. If all of them fail alike, in a way
+    /// that is not known, and no other job has ended well, no more are begun.
+    pub(crate) fn trying_first(mut self, known: Vec<Failure>) -> Self {
+        self.trials = Trials::among(&self.all, known);
+        if let Some(trials) = &self.trials {
+            self.jobs = trials.first(&self.all, &self.jobs);
+        }
+        self
     }
 
     /// The jobs, in the order in which they are best begun.
@@ -336,6 +350,12 @@ impl<'b> Permit<'b> {
         let mut tally = self.batch.tally();
         tally.progress[self.place].state = JobState::Settled;
         tally.failures.insert(self.place, failure);
+        let trials = self.batch.trials.as_ref();
+        if tally.finished + tally.elsewhere == 0
+            && let Some(jobs) = trials.and_then(|it| it.all_failed(&tally.failures))
+        {
+            tally.halted.get_or_insert(Halt::Alike { jobs });
+        }
     }
 
     /// The result or the right to make it cannot be stored: the job has failed, unless that

@@ -5,6 +5,7 @@ mod report;
 #[cfg(test)]
 mod tests;
 mod threads;
+mod trials;
 
 pub use batch::{Batch, Permit};
 pub use report::{Halt, Report};

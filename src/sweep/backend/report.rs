@@ -31,12 +31,23 @@ pub struct Report {
 
 /// Why no more jobs are begun.
 #[derive(Debug, thiserror::Error)]
-#[error(transparent)]
 pub enum Halt {
     /// The disk is full, or the one file of all results cannot be written.
+    #[error(transparent)]
     Store(#[from] StoreError),
     /// The backend cannot go on.
+    #[error(transparent)]
     Backend(#[from] BackendError),
+    /// The first jobs of a program all failed alike, so others would too.
+    #[error(
+        "the first {jobs} jobs, spread over the sweep, all failed alike, and no more were begun. \
+         Mend the program and give the same command again; if nothing is to be mended, it makes \
+         the other runs anyway"
+    )]
+    Alike {
+        /// How many these are.
+        jobs: usize,
+    },
 }
 
 impl Report {

@@ -203,11 +203,10 @@ fn a_failed_job_does_not_stop_the_rest_and_is_listed() {
     let answer = answer
         .says(&format!("40 jobs: {done} run now"))
         .says(&format!("{failed} failed"));
-    let named = answer
-        .stderr
-        .matches("error: failed: radius = 0.0155, seed ")
-        .count();
-    assert_eq!(named, failed, "{}", answer.stderr);
+    // Failures for one reason are told together.
+    let told = answer.stderr.matches("error: failed: ").count();
+    assert!((1..=failed).contains(&told), "{}", answer.stderr);
+    answer.complains("radius = 0.0155, seed ");
     assert_eq!(place.records("results/tiny").len(), done);
     assert!(place.path("results/tiny/phase.png").exists());
 

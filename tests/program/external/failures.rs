@@ -85,6 +85,65 @@ fn each_failure_is_told_and_ends_no_other_job() {
         .code(0);
 }
 
+/// Symptom: 100 runs that failed alike had 100 messages, and their points looked like points that
+/// were not run.
+#[test]
+fn equal_failures_are_told_once_and_their_points_have_a_cross() {
+    let values: Vec<String> = (0..16).map(|x| format!("{x}.0")).collect();
+    let script = format!("case @{{x}} in [1-9].0) exit 1;; esac\n{MODEL}");
+    let place = place_of(&script, &format!("[{}]", values.join(", ")), "");
+    let answer = place
+        .phase(&["sweep", "model.toml", "--allow-program"])
+        .code(1)
+        .says("16 jobs: 7 run now")
+        .complains("failed: 9 jobs: `sh model.sh` failed (exit code 1); the first: x = 1, seed 1");
+    assert_eq!(answer.stderr.matches("exit code 1").count(), 1);
+    let table = place.read("results/model/failed.csv");
+    assert_eq!(table.lines().count(), 10, "{table}");
+    let has_entry = |figure: &str, entry: &str| {
+        let texts = crate::support::texts(&place.read(figure));
+        texts.iter().any(|it| it == entry)
+    };
+    let plot = ["plot", "results/model", "--out", "again"];
+    place.phase(&plot).code(0);
+    for figure in ["results/model/phase.svg", "again/phase.svg"] {
+        assert!(has_entry(figure, "failed") && !has_entry(figure, "not run"));
+    }
+    std::fs::remove_file(place.path("results/model/failed.csv")).unwrap();
+    place.phase(&plot).code(0);
+    assert!(has_entry("again/phase.svg", "not run") && !has_entry("again/phase.svg", "failed"));
+}
+
+/// The first jobs decide; who gives the same command again has seen why.
+#[test]
+fn a_program_that_always_fails_is_started_a_few_times() {
+    let values: Vec<String> = (0..40).map(|x| format!("{x}.0")).collect();
+    let values = format!("[{}]", values.join(", "));
+    let sweep = &["sweep", "model.toml", "--allow-program", "-j", "1"];
+    let failed = |place: &crate::support::Workplace| {
+        let table = place.read("results/model/failed.csv");
+        table.lines().count() - 1
+    };
+    let place = place_of("cat absent-@{x}", &values, "");
+    place.phase(sweep).code(1).says("40 failed");
+    let place = place_of("exit 1; echo @{x}", &values, "");
+    place
+        .phase(sweep)
+        .code(1)
+        .says("8 failed, 32 left")
+        .complains("failed: 8 jobs: `sh model.sh` failed (exit code 1)")
+        .complains("the first 8 jobs, spread over the sweep, all failed alike");
+    assert_eq!(failed(&place), 8);
+    // Another failure stops it again, the same one does not.
+    let text = super::sweep_of("exit 2; echo @{x}", &values, "");
+    place.write("model.toml", &text);
+    place.phase(sweep).code(1).says("8 failed, 32 left");
+    place.phase(sweep).code(1).says("40 failed");
+    assert_eq!(failed(&place), 40);
+    place.write("model.toml", &super::sweep_of(MODEL, &values, ""));
+    place.phase(sweep).code(0).says("40 run now");
+}
+
 #[test]
 fn a_program_that_is_not_there_is_named() {
     let place = place_of(MODEL, "[1.0]", "");
@@ -98,6 +157,13 @@ fn a_program_that_is_not_there_is_named() {
         .complains(
             "cannot start `no-such-program`: there is no such program, or no interpreter for it",
         );
+    let text = text.replace("\"no-such-program\", ", "\"no-such-program ");
+    let text = text.replace("program \"model.sh\"", "program model.sh\"");
+    place.write("model.toml", &text);
+    place
+        .phase(&["sweep", "model.toml", "--allow-program"])
+        .code(1)
+        .complains("split it into words: [\"no-such-program\", \"model.sh\"]");
 }
 
 #[test]

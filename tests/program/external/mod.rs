@@ -5,6 +5,7 @@ mod ising;
 mod lammps;
 mod leave;
 mod marks;
+mod messages;
 mod results;
 mod stops;
 mod studies;

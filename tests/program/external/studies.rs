@@ -67,6 +67,31 @@ fn studies_of_accuracy_and_ablations_take_any_key_of_a_program() {
         .says("8 runs labelled");
 }
 
+/// Symptom: `[scene.program]` in the file of a study was refused, though `scene = "model.toml"` was
+/// not. Cause: the scene was read without the keys that follow from others, such as the steps of a
+/// program.
+#[test]
+fn a_study_may_hold_the_scene_of_its_program() {
+    let place = place_of("", "[1.0]", "");
+    let sweep = noisy("[1.0]");
+    let scene = &sweep[..sweep.find("[[axis]]").unwrap()];
+    place.write(
+        "study.toml",
+        &format!(
+            "study = \"accuracy\"\n{scene}\n[seeds]\ncount = 3\n\
+             [[ladder]]\nkey = \"parameters.h\"\nvalues = [0.5, 1.0]\n"
+        ),
+    );
+    place
+        .phase(&["check", "study.toml"])
+        .code(0)
+        .says("sh model.sh")
+        .says("the program is not started here");
+    place
+        .phase(&["study", "study.toml", "--allow-program"])
+        .code(0);
+}
+
 #[test]
 fn shards_and_jobs_of_a_sweep_run_apart() {
     let place = place_of(MODEL, "[1.0, 2.0, 3.0]", "version = [\"echo\", \"1\"]");

@@ -130,6 +130,7 @@ impl Tank {
             sweep: &self.sweep,
             refining: None,
             table: &self.table,
+            failures: &[],
             record: &record,
             points: &points,
             times: None,

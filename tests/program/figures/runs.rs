@@ -197,6 +197,7 @@ fn a_missing_record_is_named() {
         sweep: &tank.sweep,
         refining: None,
         table: &tank.table,
+        failures: &[],
         record: &|id| read_record(&Path::new("nowhere").join(id)),
         points: &[parse_point("radius=0.002,omega=2,seed=2").unwrap()],
         times: None,

@@ -121,8 +121,8 @@ fn headers() {
             "two-columns.npy",
             "{'descr': '<f8', 'fortran_order': False, 'shape': (1, 2)}",
             16,
-            ": the file has 2 columns, but `header` lists 1 name; list one name for each column \
-             in `header`",
+            ": the file has 2 columns, but `header` lists 1 name; give `header = [...]` with \
+             one name for each column",
         ),
     ] {
         check(name, &npy(header, data), expected);
@@ -229,7 +229,7 @@ fn one_array_needs_one_name() {
             [] => "one.npy: the file has no names for its 1 column",
             _ => "one.npy: the file has 1 column, but `header` lists 2 names",
         };
-        let help = "list one name for each column in `header`";
+        let help = "give `header = [...]` with one name for each column";
         assert_eq!(error.to_string(), format!("{expected}; {help}"));
     }
 }

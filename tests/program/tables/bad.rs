@@ -61,14 +61,14 @@ const CSV: &[Case<'_>] = &[
         b"0,1\n1,2\n",
         &[],
         ":1: the file has no names for its 2 columns; write a line of names before this one, or \
-         list one name for each column in `header`",
+         give `header = [...]` with one name for each column",
     ),
     (
         "one-name.csv",
         b"0,1\n1,2\n",
         &["t"],
         ":1: the file has 2 columns, but `header` lists 1 name; write a line of names before this \
-         one, or list one name for each column in `header`",
+         one, or give `header = [...]` with one name for each column",
     ),
     (
         "twice.csv",
@@ -187,14 +187,14 @@ const TEXT: &[Case<'_>] = &[
         b"# done by x\n0 1\n",
         &[],
         ":2: the file has no names for its 2 columns; write them before the first row as `# time \
-         energy`, or list one name for each column in `header`",
+         energy`, or give `header = [...]` with one name for each column",
     ),
     (
         "other-names.txt",
         b"0 1\n",
         &["a", "b", "c"],
         ":1: the file has 2 columns, but `header` lists 3 names; write them before the first row \
-         as `# time energy`, or list one name for each column in `header`",
+         as `# time energy`, or give `header = [...]` with one name for each column",
     ),
     (
         "row-numbers.txt",

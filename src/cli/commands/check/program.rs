@@ -10,6 +10,9 @@ use phase::scene::{ExternalProgram, Scene};
 use phase::sweep::{Folder, Job, Plan, Sweep};
 use std::path::Path;
 
+/// Why nothing is forecast.
+pub(super) const NO_FORECAST: &str = "unknown until a run is done: the program is not started here";
+
 /// Whether another program runs all scenes of a sweep.
 pub(super) fn runs_all(sweep: &Sweep) -> bool {
     sweep.scenes().into_iter().all(Scene::is_external)
@@ -77,8 +80,7 @@ pub(super) fn forecast(
     programs::take_versions(sweep, &folder);
     let plan = Plan::new(&folder, sweep.jobs()?, workers)?;
     let Some(mean) = programs::seconds_of_runs(&plan) else {
-        let text = "unknown until a run is done: the program is not started here";
-        console.result(line("forecast", text));
+        console.result(line("forecast", NO_FORECAST));
         return Ok(());
     };
     let left = plan.pending().count();

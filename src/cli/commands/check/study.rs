@@ -2,7 +2,7 @@
 
 use super::answer::{AxisAnswer, ForecastAnswer};
 use super::describe::{describe_grid, effects, line};
-use super::{Arguments, TRIAL_TIME, print_forecast, start_of_trial};
+use super::{Arguments, TRIAL_TIME, print_forecast, program, start_of_trial};
 use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::{forecast, format};
@@ -39,8 +39,14 @@ pub(super) fn main(
     };
     let runs = format!("{kind}, {}", describe_runs(comparison));
     console.result(describe_grid(title, &runs, comparison.axes()).join("\n"));
-    console.result(line("spheres", scene.spheres.count));
-    console.result(line("effects", effects(scene).join(", ")));
+    let is_of_programs = program::runs_all(sweep);
+    match is_of_programs {
+        true => program::describe_programs(sweep, &comparison.jobs[..1], console),
+        false => {
+            console.result(line("spheres", scene.spheres.count));
+            console.result(line("effects", effects(scene).join(", ")));
+        }
+    }
     let settings = SettingAnswer::all(comparison);
     let reference = matches!(study, AnyStudy::Accuracy(_)).then_some(comparison.reference);
     for (place, setting) in settings.iter().enumerate() {
@@ -58,6 +64,10 @@ pub(super) fn main(
     }
     let forecast = match arguments.no_trial {
         true => None,
+        false if is_of_programs => {
+            console.result(line("forecast", program::NO_FORECAST));
+            None
+        }
         false => {
             start_of_trial(console);
             let forecast = forecast::of_settings(comparison, workers, TRIAL_TIME)?;
@@ -75,7 +85,7 @@ pub(super) fn main(
         seeds: &sweep.seeds,
         settings,
         skipped: skipped.iter().map(|it| it.name.as_str()).collect(),
-        spheres: Some(scene.spheres.count),
+        spheres: (!is_of_programs).then_some(scene.spheres.count),
         effects: effects(scene),
         forecast: forecast.map(|it| ForecastAnswer::new(&it, workers)),
     });

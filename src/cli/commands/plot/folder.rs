@@ -112,6 +112,7 @@ fn print_fits(
         sweep,
         refining: None,
         table,
+        failures: &[],
         record: &|id| folder.read_record(id),
         points: &[],
         times: None,
