@@ -15,7 +15,7 @@ enum Row {
 }
 use Row::{Limit, None};
 
-const ROWS: [(&str, Row); 48] = [
+const ROWS: [(&str, Row); 56] = [
     ("start.random.speed", Limit("displacement", HERTZ)),
     ("start.random.spin", Limit("Magnus lift", HERTZ)),
     ("start.list.spheres.velocity", Limit("displacement", LISTED)),
@@ -94,6 +94,14 @@ const ROWS: [(&str, Row); 48] = [
         "program.time_limit",
         None("another program has its own steps"),
     ),
+    ("label.over.last", None(RULES)),
+    ("label.over.from", None(RULES)),
+    ("label.over.to", None(RULES)),
+    ("label.over.any", None(RULES)),
+    ("measure.over.last", None(RULES)),
+    ("measure.over.from", None(RULES)),
+    ("measure.over.to", None(RULES)),
+    ("measure.over.any", None(RULES)),
     ("output.rise_speeds", None("thresholds of what is measured")),
     // No second in these, but fields that decay with height and so are springs.
     ("updraught.decay", Limit("drag", HERTZ)),
@@ -107,6 +115,7 @@ const ROWS: [(&str, Row); 48] = [
     ("spheres.density", Limit("drag", TURNING)),
 ];
 
+const RULES: &str = "a part of the frames, which a rule looks at after the run";
 const SPOT: &str = "the spot model draws the times of its moves; it has no forces and no steps";
 
 const HERTZ: &str = "
