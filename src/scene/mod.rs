@@ -50,6 +50,7 @@ pub use program::{
     DescribedColumn, ExternalProgram, FilledProgram, Keep, ProgramColumn, ProgramParameters,
     ProgramResume, ProgramStates, ProgramTable, TableFormat, TemplateFile, TemplateText,
 };
+pub(crate) use program::{Marks, TextPiece};
 pub use radius::{Radii, RadiusShare};
 pub use spheres::{Shape, Spheres};
 pub(crate) use spot::STICKING_OUT;
