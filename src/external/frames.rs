@@ -3,7 +3,7 @@
 use super::run_folder::RunFolder;
 use super::table::{self, NumberTable};
 use crate::document::{shown, suggest};
-use crate::scene::{ExternalProgram, ProgramTable};
+use crate::scene::{ExternalProgram, ProgramTable, TableFormat};
 
 /// The rows that all tables have.
 #[derive(Debug, PartialEq)]
@@ -25,7 +25,11 @@ impl TableFrames {
         for (asked, file) in program.read.iter().zip(files) {
             let path = run_folder.path().join(file);
             let most = program.most_bytes as u64;
-            let table = table::read(&path, asked.format, &asked.header, most);
+            let names = match asked.format {
+                TableFormat::Hdf5 => &asked.sources(),
+                _ => &asked.header,
+            };
+            let table = table::read(&path, asked.format, names, most);
             let own = Self::of(asked, table.map_err(|it| it.to_string())?)
                 .map_err(|reason| format!("{}: {reason}", path.display()))?;
             all = Some(match all {
@@ -116,7 +120,7 @@ impl TableFrames {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{ProgramColumn, TableFormat};
+    use crate::scene::ProgramColumn;
 
     fn frames(text: &str) -> Result<TableFrames, String> {
         let table = NumberTable {

@@ -53,6 +53,7 @@ pub use program::{
     DescribedColumn, ExternalProgram, FilledProgram, Keep, ProgramColumn, ProgramParameters,
     ProgramResume, ProgramStates, ProgramTable, TableFormat, TemplateFile, TemplateText,
 };
+pub(crate) use program::{Marks, TextPiece};
 pub use radius::{Radii, RadiusShare};
 pub use rules::{LabelRule, MeasureRule, RuleWindow};
 pub use spheres::{Shape, Spheres};

@@ -3,23 +3,24 @@
 //!
 //! The names are as in the thesis's control script (Rice, 2012, section 7.2):
 //! `dump_r00.003_p03750.0_f006.0.npy`. The script pads the radius to six characters, the analysis
-//! of section 7.3 cuts out five; names are read here by their letters, so either will do. For a
-//! seed other than 1, `_s2` and so on follows (the thesis has no seeds). Where several runs have
-//! the same numbers, the seed and then the name of each follow, such as `_s1_heavy`. In the dump
-//! of an unstable run all coordinates are 1 from the end of the run on; by this the analysis
-//! recognises it.
+//! of section 7.3 cuts out five. For a seed other than 1, `_s2` and so on follows (the thesis has
+//! no seeds). Where several runs have the same numbers, the seed and then the name of each follow,
+//! such as `_s1_heavy`. In the dump of an unstable run all coordinates are 1 from the end of the
+//! run on; by this the analysis recognises it.
 
 use super::StoreError;
 use super::export::write_array;
+use super::zip;
 use crate::observe::Snapshot;
 use crate::record::{Outcome, RunRecord};
 use ndarray::{Array3, ArrayView3};
 use ndarray_npy::{ReadNpyExt, ViewNpyError, ViewNpyExt};
+use std::borrow::Cow;
 use std::fmt;
 use std::fs;
 use std::path::Path;
 
-/// What the name of a dump says.
+/// The name of a dump.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DumpName {
     /// Radius of the spheres (m), their mean if they differ.
@@ -60,28 +61,6 @@ impl DumpName {
             seed: scene.seed,
             run: None,
         }
-    }
-
-    /// What the name of a file says, if it is the name of a dump.
-    pub fn parse(file: &str) -> Option<Self> {
-        let rest = file.strip_prefix("dump_r")?.strip_suffix(".npy")?;
-        let (radius, rest) = rest.split_once("_p")?;
-        let (density, rest) = rest.split_once("_f")?;
-        let (omega, seed, run) = match rest.split_once("_s") {
-            Some((omega, rest)) => match rest.split_once('_') {
-                Some((seed, run)) => (omega, seed.parse().ok()?, Some(run.to_owned())),
-                None => (omega, rest.parse().ok()?, None),
-            },
-            None => (rest, 1, None),
-        };
-        let number = |text: &str| text.parse().ok().filter(|value: &f64| value.is_finite());
-        Some(Self {
-            radius: number(radius).filter(|radius| *radius > 0.0)?,
-            density: number(density).filter(|density| *density > 0.0)?,
-            omega: number(omega)?,
-            seed,
-            run,
-        })
     }
 }
 
@@ -153,7 +132,7 @@ fn values(record: &RunRecord, states: &[&Snapshot]) -> Array3<f64> {
     values
 }
 
-/// Reads the array of a dump: frames x n x 4.
+/// Reads the array of a dump: frames x n x 4, alone or as the one array of a `.npz` archive.
 ///
 /// # Errors
 /// [`StoreError::Read`].
@@ -165,7 +144,11 @@ pub fn read_dump(path: &Path) -> Result<Array3<f64>, StoreError> {
             path.display()
         ))
     };
-    let bytes = fs::read(path).map_err(|error| StoreError::reading(path, error))?;
+    let file = fs::read(path).map_err(|error| StoreError::reading(path, error))?;
+    let bytes = match zip::is_archive(&file) {
+        true => only_array(&file).map_err(not_a_dump)?,
+        false => Cow::Borrowed(&file[..]),
+    };
     // A header may promise more numbers than there are; a view asks for no memory before it knows.
     let values = match ArrayView3::<f64>::view_npy(&bytes) {
         Ok(view) => Ok(view.to_owned()),
@@ -180,10 +163,23 @@ pub fn read_dump(path: &Path) -> Result<Array3<f64>, StoreError> {
     }
 }
 
+/// The bytes of the one array of an archive.
+fn only_array(archive: &[u8]) -> Result<Cow<'_, [u8]>, String> {
+    let text = |(message, help)| format!("{message}; {help}");
+    let entries = zip::entries(archive).map_err(text)?;
+    match &entries[..] {
+        // It grows while it is unpacked, by no more than deflate can make of the file.
+        [entry] => entry.unpack(archive, usize::MAX).map_err(text),
+        _ => Err(format!(
+            "the archive has {} arrays; save one alone",
+            entries.len()
+        )),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use proptest::prelude::*;
 
     #[test]
     fn names_are_those_of_the_thesis() {
@@ -207,28 +203,5 @@ mod tests {
         };
         let text = "dump_r00.003_p03750.0_f006.0_s1_as it was_s2.npy";
         assert_eq!(named.to_string(), text);
-        assert_eq!(DumpName::parse(text), Some(named));
-        for text in [
-            "dump_r00.00_p03750.0_f006.0.h5",
-            "dump_r0_p03750.0_f006.0.npy",
-            "dump_r0.1_p1_fnan.npy",
-            "dump_r0.1_p1_f1_sx.npy",
-            "position.npy",
-        ] {
-            assert_eq!(DumpName::parse(text), None, "{text}");
-        }
-    }
-
-    proptest! {
-        #[test]
-        fn names_keep_every_bit(
-            radius in 1e-9..1e3,
-            density in 1e-3..1e6,
-            omega in -1e6..1e6,
-            seed: u64,
-        ) {
-            let name = DumpName { radius, density, omega, seed, run: None };
-            prop_assert_eq!(DumpName::parse(&name.to_string()), Some(name));
-        }
     }
 }

@@ -17,6 +17,7 @@ mod process;
 mod record;
 mod refined;
 mod rows;
+pub(crate) mod zip;
 
 pub use crate::document::advice;
 pub use atomic::{check_writable, remove_leftovers, write_atomic};

@@ -10,6 +10,7 @@ mod job;
 mod labelling;
 mod load;
 mod merge;
+mod names;
 mod next;
 mod plan;
 mod pool;
@@ -27,7 +28,7 @@ pub use backend::{
     Backend, BackendError, Batch, Begin, Claim, Event, Halt, LocalThreads, Permit, Report, Results,
     Wishes,
 };
-pub use dumps::find_dumps;
+pub use dumps::{DumpScene, find_dumps};
 pub use failure::Failure;
 pub use failures::read_failures;
 pub use folder::{Folder, FolderError};
@@ -38,6 +39,7 @@ pub use labelling::{
 pub(crate) use load::{SWEEP, of_document};
 pub use load::{from_str, load};
 pub use merge::Taken;
+pub use names::{NamePattern, NamedRun};
 pub use next::NextJobs;
 pub use plan::{Done, ForeignRecord, Plan, PlanError, Standing};
 pub use pool::{Pool, PoolError};

@@ -189,15 +189,14 @@ fn a_dump_is_what_its_name_and_its_length_say() {
         std::fs::write(place.path("dumps").join(name), bytes).unwrap();
         place.phase(&["classify", "dumps", "--scene", "scene.toml"])
     };
-    for name in [
-        "foo.npy",
-        "dump_rx_p3750_f8.npy",
-        "dump_r-0.004_p3750_f8.npy",
-    ] {
+    for name in ["foo.npy", "dump_rx_p3750_f8.npy"] {
         classify(name, &bytes)
             .code(1)
-            .complains("its name must say radius, density and Omega");
+            .complains("its name does not fit `dump_r@{spheres.radius}_p@{spheres.density}");
     }
+    classify("dump_r-0.004_p3750_f8.npy", &bytes)
+        .code(1)
+        .complains("at radius = -0.004, density = 3750, omega = 8:");
     classify("dump_r00.400_p03750.0_f006.0.npy", &bytes)
         .code(1)
         .complains("do not fit into a tank");

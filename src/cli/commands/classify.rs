@@ -9,7 +9,7 @@ use crate::cli::exit::{Exit, Failure};
 use crate::cli::folders::{self, Entry, Undone};
 use crate::cli::labels::{OF_STUDY, Summary, cannot_label, cannot_write, label_folder};
 use crate::cli::options::Workers;
-use phase::sweep::{Folder, Job, LabellingError, Sweep, refuse_to_lose_labels};
+use phase::sweep::{Folder, Job, LabellingError, NamePattern, Sweep, refuse_to_lose_labels};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
@@ -26,15 +26,24 @@ Example: dumps as the thesis's program wrote them (dump_r00.003_p03750.0_f006.0.
 spheres x 4 of x, y, z and energy). Radius, density and Omega come from the names, the rest from the
 scene
   phase classify dumps --scene sweeps/scenes/theoretical.toml
+
+Example: dumps with other names, such as tilt-0.1-run-2.npy. A mark @{KEY} is where the value of a
+numeric key of the scene stands; it becomes an axis of the table, as in a sweep over the key.
+@{seed} is the seed, @{name} any text, and [...] around them may be missing
+  phase classify dumps --scene scene.toml --names 'tilt-@{gravity.tilt}[-run-@{seed}].npy'
+
 A dump has no velocities, spins or contact energies. The sieves do not need them, but the order
 parameters rotation and mobility are then computed from displacements between frames.")]
 pub(crate) struct Arguments {
     /// A results folder of `phase sweep`, or a folder that holds several; or, with --scene, a
     /// folder of dumps.
     dir: PathBuf,
-    /// The folder holds dumps (.npy) of runs of this scene.
+    /// The folder holds dumps (.npy, or .npz with one array) of runs of this scene.
     #[arg(long, value_name = "FILE")]
     scene: Option<PathBuf>,
+    /// The names of the dumps, with marks in the place of values.
+    #[arg(long, value_name = "PATTERN", requires = "scene", default_value = NamePattern::OF_THESIS)]
+    names: String,
     /// From now on take thresholds, title and plot settings from this sweep file. Its scene, axes
     /// and seeds must be the ones that were run. With --scene only the thresholds are taken.
     #[arg(long, value_name = "FILE")]
@@ -52,7 +61,14 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     let folders = match &arguments.scene {
         Some(scene) => {
             let sieves = edited.map(|sweep| sweep.sieves).unwrap_or_default();
-            let labelled = dumps::label(&arguments.dir, scene, &sieves, workers, console)?;
+            let labelled = dumps::label(
+                &arguments.dir,
+                scene,
+                &arguments.names,
+                &sieves,
+                workers,
+                console,
+            )?;
             let summary = Summary::new(&Folder::new(&arguments.dir), &labelled);
             vec![Entry::Done(summary)]
         }

@@ -203,14 +203,12 @@ fn targets(arguments: &Arguments) -> Result<Vec<Result<PathBuf, Failure>>, Failu
         .at(out));
     }
     let of_record = |path: &PathBuf| target(arguments, path);
-    let mut targets: Vec<Result<PathBuf, Failure>> =
+    let mut targets: Vec<Result<ExportTarget, Failure>> =
         arguments.records.iter().map(of_record).collect();
-    if arguments.to == Format::Dump {
-        tell_apart(&arguments.records, &mut targets);
-    }
+    tell_apart(&arguments.records, &mut targets);
     let mut written: HashMap<PathBuf, &Path> = HashMap::new();
     for (path, target) in arguments.records.iter().zip(&targets) {
-        if let Ok(target) = target
+        if let Ok(ExportTarget { path: target, .. }) = target
             && let Some(other) = written.insert(target.clone(), path)
         {
             return Err(Failure::refused(format_args!(
@@ -223,33 +221,42 @@ fn targets(arguments: &Arguments) -> Result<Vec<Result<PathBuf, Failure>>, Failu
         }
     }
     let checked = targets.into_iter().map(|target| {
-        let target = target?;
-        arguments.to.check(&target).map(|()| target)
+        let ExportTarget { path, .. } = target?;
+        arguments.to.check(&path).map(|()| path)
     });
     Ok(checked.collect())
 }
 
+/// Where a record goes.
+struct ExportTarget {
+    /// The main file of its export, or the folder of its arrays.
+    path: PathBuf,
+    /// The name of a dump that says what the record holds.
+    name: Option<DumpName>,
+}
+
 /// Adds the names of records to dumps of one name: runs that differ in other keys than those that
 /// the name of a dump says, such as runs of variants.
-fn tell_apart(records: &[PathBuf], targets: &mut [Result<PathBuf, Failure>]) {
+fn tell_apart(records: &[PathBuf], targets: &mut [Result<ExportTarget, Failure>]) {
     let mut times: HashMap<PathBuf, usize> = HashMap::new();
     for target in targets.iter().flatten() {
-        *times.entry(target.clone()).or_default() += 1;
+        *times.entry(target.path.clone()).or_default() += 1;
     }
     for (record, target) in records.iter().zip(targets) {
-        if let Ok(target) = target
-            && times[target] > 1
-            && let (Some(name), Some(run)) = (target.file_name(), record.file_stem())
-            && let Some(name) = DumpName::parse(&name.to_string_lossy())
+        if let Ok(ExportTarget {
+            path,
+            name: Some(name),
+        }) = target
+            && times[path] > 1
+            && let Some(run) = record.file_stem()
         {
-            let run = Some(run.to_string_lossy().into_owned());
-            target.set_file_name(DumpName { run, ..name }.to_string());
+            name.run = Some(run.to_string_lossy().into_owned());
+            path.set_file_name(name.to_string());
         }
     }
 }
 
-/// The target of an export: its main file, or the folder of its arrays.
-fn target(arguments: &Arguments, record_path: &Path) -> Result<PathBuf, Failure> {
+fn target(arguments: &Arguments, record_path: &Path) -> Result<ExportTarget, Failure> {
     // Refuse what is no record before anything is written.
     store::read_record_header(record_path)?;
     let extension = arguments.to.extension();
@@ -260,22 +267,29 @@ fn target(arguments: &Arguments, record_path: &Path) -> Result<PathBuf, Failure>
                 && !extension.is_empty()
                 && out.extension().is_some_and(|it| it == extension) =>
         {
-            return Ok(out.clone());
+            return Ok(ExportTarget {
+                path: out.clone(),
+                name: None,
+            });
         }
         Some(folder) => folder.as_path(),
         None => beside,
     };
     let stem = record_path.file_stem().unwrap_or("record".as_ref());
-    Ok(match arguments.to {
-        // The name of a dump says what the record holds.
+    let name = match arguments.to {
         Format::Dump => {
             let record = store::read_record(record_path)?;
             runs::refuse_without_spheres(&record, record_path)?;
-            folder.join(DumpName::of_record(&record).to_string())
+            Some(DumpName::of_record(&record))
         }
-        Format::Npy | Format::Svg => folder.join(stem),
-        _ => folder.join(stem).with_added_extension(extension),
-    })
+        _ => None,
+    };
+    let path = match (arguments.to, &name) {
+        (_, Some(name)) => folder.join(name.to_string()),
+        (Format::Npy | Format::Svg, None) => folder.join(stem),
+        (_, None) => folder.join(stem).with_added_extension(extension),
+    };
+    Ok(ExportTarget { path, name })
 }
 
 fn export(

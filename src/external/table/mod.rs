@@ -9,11 +9,11 @@ mod bytes;
 mod columns;
 mod csv;
 mod error;
+mod hdf5;
 mod npy;
 mod npz;
 mod text;
 mod thermo;
-mod zip;
 
 pub use error::TableError;
 pub(in crate::external) use error::list;
@@ -46,8 +46,8 @@ impl NumberTable {
 }
 
 /// Reads a table. `names` name the columns if the file has no names of its own, which happens
-/// with [`TableFormat::Csv`], [`TableFormat::Text`] and [`TableFormat::Numpy`]; otherwise they are
-/// not used.
+/// with [`TableFormat::Csv`], [`TableFormat::Text`] and [`TableFormat::Numpy`]. With
+/// [`TableFormat::Hdf5`] they are the paths of the data sets to read. Otherwise they are not used.
 ///
 /// # Errors
 /// If the file has more than `most_bytes`, packed or unpacked, or is no whole table of that format.
@@ -66,5 +66,6 @@ pub fn read(
         TableFormat::LammpsAverage => ave_time::read(path, bytes::text(path, &bytes)?),
         TableFormat::Numpy if npz::is_archive(&bytes) => npz::read(path, &bytes, most_bytes),
         TableFormat::Numpy => npy::read(path, &bytes, names),
+        TableFormat::Hdf5 => hdf5::read(path, bytes, names, most_bytes),
     }
 }

@@ -4,7 +4,7 @@ use super::NumberTable;
 use super::columns::{check_names, no_rows};
 use super::error::{TableError, quote};
 use super::npy;
-use super::zip;
+use crate::store::zip;
 use std::path::Path;
 
 /// Whether a file is an archive.

@@ -39,6 +39,23 @@ pub enum TableFormat {
     LammpsAverage,
     /// An array of numpy (`.npy`) or several (`.npz`).
     Numpy,
+    /// A file of HDF5. Its data sets of one dimension are the columns; their names are paths, such
+    /// as `group/velocity`.
+    Hdf5,
+}
+
+impl ProgramTable {
+    /// The names, in the table, of the columns that are read, each once.
+    pub fn sources(&self) -> Vec<String> {
+        let kept = self.columns.iter().map(ProgramColumn::source);
+        let mut names: Vec<String> = Vec::new();
+        for name in self.time.as_deref().into_iter().chain(kept) {
+            if !names.iter().any(|known| known == name) {
+                names.push(name.to_owned());
+            }
+        }
+        names
+    }
 }
 
 /// A column that records keep.

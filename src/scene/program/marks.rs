@@ -9,14 +9,14 @@ use std::ops::Range;
 const OPEN: &str = "@{";
 
 /// The marks of a text.
-pub(in crate::scene) struct Marks<'a> {
+pub(crate) struct Marks<'a> {
     text: &'a str,
     at: usize,
 }
 
 /// A piece of a text.
 #[derive(Debug, PartialEq)]
-pub(in crate::scene) enum TextPiece<'a> {
+pub(crate) enum TextPiece<'a> {
     /// As it is written.
     Plain(&'a str),
     /// A mark with this name, at this place (bytes).
@@ -27,14 +27,14 @@ pub(in crate::scene) enum TextPiece<'a> {
 
 impl TextPiece<'_> {
     /// Whether a value takes its place.
-    pub(in crate::scene) fn is_mark(&self) -> bool {
+    pub(crate) fn is_mark(&self) -> bool {
         !matches!(self, Self::Plain(_))
     }
 }
 
 impl<'a> Marks<'a> {
     /// The pieces of a text, in order.
-    pub(in crate::scene) fn of(text: &'a str) -> Self {
+    pub(crate) fn of(text: &'a str) -> Self {
         Self { text, at: 0 }
     }
 }

@@ -7,7 +7,7 @@ mod marks;
 
 pub use columns::{DescribedColumn, ProgramColumn, ProgramTable, TableFormat};
 pub use fill::FilledProgram;
-pub(super) use marks::{Marks, TextPiece};
+pub(crate) use marks::{Marks, TextPiece};
 
 use super::{Scene, Start, is_default};
 use crate::document::unit;

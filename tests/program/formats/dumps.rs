@@ -1,6 +1,7 @@
 //! Dumps as the thesis's program wrote them give the labels that records give.
 
 use crate::support::{TinySweep, Workplace, scene_file};
+use ndarray_npy::WriteNpyExt;
 use phase::classify::Label;
 use phase::classify::LabelRow;
 use phase::store::read_labels;
@@ -18,7 +19,7 @@ fn sweep() -> TinySweep {
     }
 }
 
-fn swept_and_exported() -> Workplace {
+pub(super) fn swept_and_exported() -> Workplace {
     let place = Workplace::new();
     place.write("tiny.toml", &sweep().text());
     place.write("scene.toml", &scene_file());
@@ -35,7 +36,11 @@ fn swept_and_exported() -> Workplace {
 }
 
 /// Rows of a table of labels by Omega and seed.
-fn rows(place: &Workplace, table: &str, omega: &str) -> BTreeMap<(String, u64), LabelRow> {
+pub(super) fn rows(
+    place: &Workplace,
+    table: &str,
+    omega: &str,
+) -> BTreeMap<(String, u64), LabelRow> {
     let table = read_labels(&place.path(table)).unwrap();
     let axis = table.axes.iter().position(|axis| axis == omega).unwrap();
     let key = |row: &LabelRow| (row.values[axis].to_string(), row.seed);
@@ -128,11 +133,71 @@ fn what_is_no_dump_of_the_scene_is_refused() {
     classify(&["dumps", "--scene", "scene.toml"])
         .code(1)
         .says("8 runs labelled")
-        .complains("the same radius, density, Omega and seed");
+        .complains("says the same radius, density, omega and seed as");
     place.write("more.toml", &scene_file().replace("count = 8", "count = 9"));
     classify(&["dumps", "--scene", "more.toml"])
         .code(1)
         .complains("it has 8 spheres, but spheres.count of the scene is 9");
+}
+
+/// An archive of numpy with arrays that are not packed.
+fn archive(arrays: &[(&str, &[u8])]) -> Vec<u8> {
+    let (mut bytes, mut directory) = (Vec::new(), Vec::new());
+    for (name, array) in arrays {
+        let start = bytes.len() as u32;
+        let mut sizes = crc32fast::hash(array).to_le_bytes().to_vec();
+        let size = (array.len() as u32).to_le_bytes();
+        sizes.extend([size, size].concat());
+        sizes.extend((name.len() as u16).to_le_bytes());
+        sizes.extend([0; 2]);
+        bytes.extend([&b"PK\x03\x04"[..], &[0; 10], &sizes, name.as_bytes(), array].concat());
+        directory.extend([&b"PK\x01\x02"[..], &[0; 12], &sizes, &[0; 10]].concat());
+        directory.extend(start.to_le_bytes());
+        directory.extend(name.as_bytes());
+    }
+    let count = (arrays.len() as u16).to_le_bytes();
+    let place = [directory.len() as u32, bytes.len() as u32].map(u32::to_le_bytes);
+    bytes.extend(directory);
+    bytes.extend(
+        [
+            &b"PK\x05\x06"[..],
+            &[0; 4],
+            &count,
+            &count,
+            &place.concat(),
+            &[0; 2],
+        ]
+        .concat(),
+    );
+    bytes
+}
+
+#[test]
+fn archives_of_one_array_are_dumps() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut array = Vec::new();
+    ndarray::Array3::<f64>::ones((2, 3, 4))
+        .write_npy(&mut array)
+        .unwrap();
+    let read = |bytes: &[u8]| {
+        let path = folder.path().join("dump.npz");
+        std::fs::write(&path, bytes).unwrap();
+        phase::store::read_dump(&path)
+    };
+    let one = archive(&[("arr_0.npy", &array)]);
+    assert_eq!(read(&one).unwrap().dim(), (2, 3, 4));
+    let two = archive(&[("a.npy", &array), ("b.npy", &array)]);
+    let error = read(&two).unwrap_err().to_string();
+    let expected = "the archive has 2 arrays; save one alone";
+    assert!(error.ends_with(expected), "{error}");
+    assert!(read(&archive(&[])).is_err());
+    let mut damaged = one.clone();
+    damaged[200] ^= 1;
+    let error = read(&damaged).unwrap_err().to_string();
+    assert!(error.contains("its checksum is another one"), "{error}");
+    for length in 4..one.len() {
+        assert!(read(&one[..length]).is_err(), "{length}");
+    }
 }
 
 /// A disc has a moment of inertia of m r^2 / 2, not that of a sphere.

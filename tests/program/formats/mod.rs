@@ -4,5 +4,6 @@ mod browser;
 mod dumps;
 mod export;
 mod flat;
+mod names;
 mod run_again;
 mod view;

@@ -3,6 +3,7 @@
 mod arrays;
 mod bad;
 mod good;
+mod hdf5;
 mod lammps;
 mod random;
 
@@ -13,7 +14,7 @@ use std::path::Path;
 /// Enough for every file here.
 const MOST: u64 = 1 << 20;
 
-/// Real files: of LAMMPS, shortened by lines outside of tables, and of NumPy and pandas.
+/// Real files: of LAMMPS, shortened by lines outside of tables, and of NumPy, pandas and h5py.
 fn data(name: &str) -> Vec<u8> {
     std::fs::read(
         Path::new(env!("CARGO_MANIFEST_DIR"))

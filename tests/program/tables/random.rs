@@ -47,17 +47,22 @@ fn valid() -> Vec<(TableFormat, Vec<u8>)> {
         (TableFormat::Numpy, "rows.npy"),
         (TableFormat::Numpy, "stored.npz"),
         (TableFormat::Numpy, "packed.npz"),
+        (TableFormat::Hdf5, "plain.h5"),
+        (TableFormat::Hdf5, "packed.h5"),
+        (TableFormat::Hdf5, "packed-v114.h5"),
+        (TableFormat::Hdf5, "grown.h5"),
     ];
     files.map(|(format, name)| (format, data(name))).to_vec()
 }
 
 /// All formats.
-const FORMATS: [TableFormat; 5] = [
+const FORMATS: [TableFormat; 6] = [
     TableFormat::Csv,
     TableFormat::Text,
     TableFormat::LammpsLog,
     TableFormat::LammpsAverage,
     TableFormat::Numpy,
+    TableFormat::Hdf5,
 ];
 
 /// What was read is a table as it is promised.
@@ -134,11 +139,11 @@ proptest! {
 
     #[test]
     fn damaged_files_are_read_or_refused(
-        file in 0_usize..7,
+        file: prop::sample::Index,
         changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 0..4),
         length in prop::option::of(any::<prop::sample::Index>()),
     ) {
-        let (format, mut bytes) = valid().swap_remove(file);
+        let (format, mut bytes) = file.get(&valid()).clone();
         for (place, byte) in changes {
             let place = place.index(bytes.len());
             bytes[place] = byte;
@@ -196,7 +201,8 @@ const WORDS: [&str; 28] = [
 /// An array that ends early is never one.
 #[test]
 fn every_truncated_array_is_refused() {
-    for (format, bytes) in valid().split_off(4) {
+    let arrays = valid().split_off(4).into_iter();
+    for (format, bytes) in arrays.filter(|(_, bytes)| bytes.len() < 3000) {
         for length in 0..bytes.len() {
             let read = read_bytes("file", &bytes[..length], format, &["time", "energy"], MOST);
             assert!(read.is_err(), "{length}");

@@ -6,20 +6,25 @@ use crate::cli::folders;
 use crate::cli::labels::{tell_of_labels, tell_of_problems};
 use phase::classify::Sieves;
 use phase::scene::Scene;
-use phase::sweep::{Folder, FolderError, Labelled, Labelling, find_dumps};
+use phase::sweep::{DumpScene, Folder, FolderError, Labelled, Labelling, NamePattern, find_dumps};
 use std::path::{Path, PathBuf};
 
-/// Labels the dumps of a folder, writes the tables there and prints a summary.
+/// Labels the dumps of a folder, whose names have this pattern, writes the tables there and prints
+/// a summary.
 pub(super) fn label(
     folder: &Path,
     scene: &Path,
+    names: &str,
     sieves: &Sieves,
     workers: usize,
     console: &Console,
 ) -> Result<Labelled, Failure> {
     let scene = Scene::load_base(scene)?;
     sieves.check(&scene)?;
-    let dumps = dumps_in(folder)?;
+    let refuse = |problem| Failure::refused(format_args!("--names {names}: {problem}"));
+    let pattern = NamePattern::parse(names).map_err(refuse)?;
+    let dumps = dumps_in(folder, pattern.extension())?;
+    let scene = DumpScene::new(&scene, pattern).map_err(refuse)?;
     let tables = ["labels.csv", "points.csv"];
     folders::refuse_foreign(folder, tables, "use a folder with the dumps alone")?;
     let labelling = Labelling::of_dumps(&dumps, &scene, sieves, workers)?;
@@ -30,7 +35,7 @@ pub(super) fn label(
     Ok(labelled)
 }
 
-fn dumps_in(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
+fn dumps_in(folder: &Path, extension: &str) -> Result<Vec<PathBuf>, Failure> {
     let refuse = |reason: String| {
         Failure::refused(format_args!(
             "{reason}; make dumps with `phase export ... --to dump`"
@@ -42,8 +47,8 @@ fn dumps_in(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
             "a results folder is labelled from its records; drop --scene".to_owned(),
         ));
     }
-    match find_dumps(folder) {
-        Ok(dumps) if dumps.is_empty() => Err(refuse("holds no .npy files".to_owned())),
+    match find_dumps(folder, extension) {
+        Ok(dumps) if dumps.is_empty() => Err(refuse(format!("holds no .{extension} files"))),
         Ok(dumps) => Ok(dumps),
         Err(error) => Err(refuse(error.to_string())),
     }
@@ -51,7 +56,7 @@ fn dumps_in(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
 
 /// Why a folder has no results; for a folder of dumps the message names the missing option.
 pub(super) fn hint(folder: &Path, error: &FolderError) -> Failure {
-    match find_dumps(folder) {
+    match find_dumps(folder, "npy") {
         Ok(dumps) if !dumps.is_empty() => Failure::refused(
             "holds dumps (.npy) but no sweep.json; give the scene of the dumps with --scene FILE",
         )

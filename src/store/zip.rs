@@ -10,7 +10,6 @@
 //!             of the comment, comment
 //! ```
 
-use super::npy::Fault;
 use miniz_oxide::inflate::decompress_to_vec_with_limit;
 use std::borrow::Cow;
 
@@ -26,10 +25,13 @@ const END_SIZE: usize = 22;
 const DAMAGED: &str = "the program was stopped while it wrote, or the file is damaged: write it \
                        again with `numpy.savez`";
 
+/// What is wrong with an archive, and what to do.
+type ArchiveFault = (String, &'static str);
+
 /// An entry of the directory.
-pub(super) struct Entry {
+pub(crate) struct Entry {
     /// The name of the file.
-    pub(super) name: String,
+    pub(crate) name: String,
     flags: u16,
     method: u16,
     checksum: u32,
@@ -39,12 +41,12 @@ pub(super) struct Entry {
 }
 
 /// Whether a file is an archive.
-pub(super) fn is_archive(bytes: &[u8]) -> bool {
+pub(crate) fn is_archive(bytes: &[u8]) -> bool {
     bytes.starts_with(LOCAL) || bytes.starts_with(END)
 }
 
 /// The entries of an archive.
-pub(super) fn entries(bytes: &[u8]) -> Result<Vec<Entry>, Fault> {
+pub(crate) fn entries(bytes: &[u8]) -> Result<Vec<Entry>, ArchiveFault> {
     directory(bytes).ok_or_else(|| {
         (
             "the directory of the archive is missing or wrong".to_owned(),
@@ -95,7 +97,11 @@ fn directory(bytes: &[u8]) -> Option<Vec<Entry>> {
 
 impl Entry {
     /// The bytes of the file, if there are no more than `most`.
-    pub(super) fn unpack<'b>(&self, bytes: &'b [u8], most: usize) -> Result<Cow<'b, [u8]>, Fault> {
+    pub(crate) fn unpack<'b>(
+        &self,
+        bytes: &'b [u8],
+        most: usize,
+    ) -> Result<Cow<'b, [u8]>, ArchiveFault> {
         if self.flags & 1 != 0 {
             return Err(("it is encrypted".to_owned(), "save it without a password"));
         }
@@ -138,7 +144,7 @@ impl Entry {
     }
 }
 
-fn damaged(message: &str) -> Fault {
+fn damaged(message: &str) -> ArchiveFault {
     (message.to_owned(), DAMAGED)
 }
 
