@@ -2,6 +2,7 @@
 
 use crate::cpu_time;
 use crate::record::RunRecord;
+use crate::refusal::Refusal;
 use crate::run::{self, Run};
 use crate::scene::Scene;
 use crate::simulation::{BuildError, Model, PartOfStep, Profile};
@@ -22,7 +23,11 @@ pub enum CostError {
     Io(#[from] std::io::Error),
 }
 
-crate::refusal::always!(false: CostError);
+impl Refusal for CostError {
+    fn is_refusal(&self) -> bool {
+        matches!(self, Self::Build(_))
+    }
+}
 
 /// The cost of a part of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]

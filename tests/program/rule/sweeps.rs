@@ -271,18 +271,27 @@ fn a_window_anywhere_tells_since_when() {
              over = {over}\n"
         )
     };
-    let numbers = |over: &str| -> Vec<String> {
+    let found = |over: &str| -> (String, Option<f64>) {
         place.write("tiny.toml", &text(&label(over)));
         place
             .phase(&["sweep", "tiny.toml", "--no-plot", "--force"])
             .code(0);
         let names = ["label", "high_since"];
-        cells(&place, "results/tiny/labels.csv", &names).remove(0)
+        let row = cells(&place, "results/tiny/labels.csv", &names).remove(0);
+        (row[0].clone(), row[1].parse().ok())
     };
     // Frames are 0.01 s apart.
-    assert_eq!(numbers("{ any = 0.5 }"), ["high", "0.71"]);
-    assert_eq!(numbers("{ any = 0.8 }"), ["other", ""]);
-    assert_eq!(numbers("{ from = 0.8, to = 1.3 }"), ["high", "0.8"]);
+    for (over, label, since) in [
+        ("{ any = 0.5 }", "high", Some(0.71)),
+        ("{ any = 0.8 }", "other", None),
+        ("{ from = 0.8, to = 1.3 }", "high", Some(0.8)),
+    ] {
+        let (found, at) = found(over);
+        assert_eq!(found, label, "{over}");
+        assert_eq!(at.is_some(), since.is_some(), "{over}");
+        let near = |(one, other): (f64, f64)| (one - other).abs() < 1e-9;
+        assert!(at.zip(since).is_none_or(near), "{over}: {at:?}");
+    }
     let measure = "[[measure]]\nname = \"x\"\nvalue = \"pi * max(time)\"\nover = { any = 0.5 }\n";
     place.write("tiny.toml", &text(measure));
     place

@@ -195,7 +195,8 @@ fn trees_are_read_a_few_times_only() {
     let place = |place: usize| (place as u64).to_le_bytes();
     let mut words = bytes.windows(8);
     let root = words.position(|it| it == place(tree)).unwrap();
-    bytes[root..root + 8].copy_from_slice(&place(bytes.len()));
+    let end = place(bytes.len());
+    bytes[root..root + 8].copy_from_slice(&end);
     let length = 24 + 3 * 24 + 2 * 8;
     for number in 1..=40 {
         let mut branch = bytes[tree..tree + length].to_vec();
