@@ -389,6 +389,21 @@ fn with(path: &Path, end: &str) -> PathBuf {
 /// Makes a file that is not there. None if it is. It appears whole: an unfinished one, whose
 /// process was killed, would name nobody.
 fn make(path: &Path, holder: &Holder) -> io::Result<Option<File>> {
+    let mut tries = 1..=MOST_TRIES;
+    loop {
+        match make_once(path, holder) {
+            // A process that is alone in the folder took the unfinished file for one that was left
+            // behind.
+            Err(error) if error.kind() == ErrorKind::NotFound && tries.next().is_some() => {}
+            made => return made,
+        }
+    }
+}
+
+/// How often an unfinished file may be removed by others.
+const MOST_TRIES: usize = 10;
+
+fn make_once(path: &Path, holder: &Holder) -> io::Result<Option<File>> {
     let text = serde_json::to_string(holder).map_err(io::Error::other)?;
     let unfinished = unfinished_beside(path);
     let made = write_new(&unfinished, &text)?;

@@ -90,7 +90,7 @@ proptest! {
         for ((name, value), (_, other)) in here.into_iter().zip(moved) {
             prop_assert!(value >= 0.0, "{name}: {value}");
             prop_assert!((value - other).abs() <= 1e-9 * (1.0 + value), "{name}: {value}, {other}");
-            let most = match name {
+            let most = match name.as_str() {
                 "surface_angle" => std::f64::consts::FRAC_PI_2,
                 "packing_fraction" => 1.0,
                 _ => f64::INFINITY,

@@ -260,3 +260,28 @@ fn names_of_leases_are_known_from_their_files() {
         assert_eq!(Lease::name_of(file), name, "{file}");
     }
 }
+
+/// Symptom: one of two processes that began a sweep at once ended with "No such file or directory".
+/// Cause: the other one, alone in the folder, removed its unfinished lease with what killed
+/// processes had left behind.
+#[test]
+fn who_cleans_up_does_not_fail_who_takes_a_lease() {
+    let folder = tempfile::tempdir().unwrap();
+    let done = AtomicBool::new(false);
+    thread::scope(|scope| {
+        scope.spawn(|| {
+            while !done.load(Ordering::Relaxed) {
+                crate::store::remove_leftovers(folder.path()).unwrap();
+            }
+        });
+        for number in 0..500 {
+            let taken = Lease::take(&folder.path().join(number.to_string()));
+            let found = taken.map(|it| it.is_some());
+            if !matches!(found, Ok(true)) {
+                done.store(true, Ordering::Relaxed);
+                panic!("{number}: {found:?}");
+            }
+        }
+        done.store(true, Ordering::Relaxed);
+    });
+}

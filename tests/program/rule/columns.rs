@@ -165,7 +165,11 @@ fn profiles_are_columns_of_their_bins() {
         assert_eq!(all[2], "8.0");
     }
     for (good, bad, message) in [
-        ("bins = 2", "bins = 0", "must be a number from 1 to 200"),
+        (
+            "bins = 2",
+            "bins = 0",
+            "must be a whole number of at least 1",
+        ),
         ("to = 1.0", "to = -2.0", "does not end above the beginning"),
         (
             "\"height\"",

@@ -8,12 +8,15 @@ const TIME: &[f64] = &[0.0, 0.1, 0.2, 0.30000000000000004];
 const ENERGY: &[f64] = &[1.5, -2.25, f64::NAN, f64::INFINITY];
 const COUNT: &[f64] = &[1.0, 2.0, 3.0, 4.0];
 
+/// A file, paths of data sets in it, and their numbers.
+type ColumnsOfFile<'a> = (&'a str, &'a [&'a str], &'a [&'a [f64]]);
+
 #[test]
 fn columns() {
     let types = [
         "i1", "i2", "i4", "i8", "u1", "u2", "u4", "u8", "f4", "f8", ">i4", ">f4", ">f8", ">u2",
     ];
-    let cases: &[(&str, &[&str], &[&[f64]])] = &[
+    let cases: &[ColumnsOfFile<'_>] = &[
         (
             "plain.h5",
             &["energy", "group/count", "/time"],
