@@ -45,12 +45,12 @@ fn labels_of_other_names_are_named() {
 
 #[test]
 fn a_column_that_is_spelt_otherwise_is_suggested() {
-    let script = "printf 't,heigth\\n0,0\\n1,@{x}\\n' > out.csv";
+    let script = "printf 't,heights\\n0,0\\n1,@{x}\\n' > out.csv";
     let place = place_of(script, "[1.0]", "");
     let text = place.read("model.toml");
     let text = text.replace("name = \"y\"", "name = \"y\", from = \"height\"");
     place.write("model.toml", &text);
     place.phase(SWEEP).code(1).complains(
-        "there is no column `height`; did you mean `heigth`? its columns are \"t\", \"heigth\"",
+        "there is no column `height`; did you mean `heights`? its columns are \"t\", \"heights\"",
     );
 }
