@@ -214,8 +214,8 @@ fn check_sieves(sweep: &Sweep, tree: &Value, problems: &mut Vec<Problem>) {
             "the labels of this file are those of its [[label]]",
         );
         let help = format!(
-            "remove [sieves], or [[label]]; or give `labels = \"{}\"`, and sieves label the runs of \
-             which no rule holds",
+            "remove [sieves], or [[label]]; or give `labels = \"{}\"`, and sieves label the runs \
+             of which no rule holds",
             family.name
         );
         problems.push(problem.help(help).at_key());

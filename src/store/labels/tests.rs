@@ -198,8 +198,8 @@ fn a_table_of_a_silo_has_columns_of_its_own() {
     assert_eq!(
         lines.next().unwrap(),
         "id,opening,seed,label,code,emptied_value,emptied_threshold,emptied_margin,arching_pause,\
-         arching_margin,over_opening,flowing_count,flowing_margin,rest_time,heap_height,packing_fraction,coordination,\
-         discharge_rate,mass_rate,discharged_share,emptying_time"
+         arching_margin,over_opening,flowing_count,flowing_margin,rest_time,heap_height,\
+         packing_fraction,coordination,discharge_rate,mass_rate,discharged_share,emptying_time"
     );
     assert_eq!(
         lines.next().unwrap(),
