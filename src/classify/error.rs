@@ -68,8 +68,8 @@ pub enum ClassifyError {
     },
     /// The record lacks columns that sieves read.
     #[error(
-        "the sieves of a {family} read all its usual columns, and the scene records only those that \
-         `output.usual` names; remove it and run the scene again"
+        "the sieves of a {family} read all its usual columns, and the scene records only those \
+         that `output.usual` names; remove it and run the scene again"
     )]
     NoColumns {
         /// The family.

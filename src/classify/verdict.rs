@@ -36,8 +36,8 @@ impl Verdict {
         Some(self)
     }
 
-    /// The margin of each rule of the family, by the code of its label; none of an unstable run. One
-    /// that is undefined is not a number.
+    /// The margin of each rule of the family, by the code of its label; none of an unstable run. A
+    /// margin that is undefined is not a number.
     pub fn margins(&self) -> Vec<(i8, f64)> {
         if self.label == Label::UNSTABLE {
             return Vec::new();

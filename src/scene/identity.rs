@@ -76,9 +76,9 @@ fn identity(keys: &impl Serialize) -> String {
 
 impl Scene {
     /// Sixteen hexadecimal digits that stand for everything that determines the motion: all keys
-    /// except `title`, `neighbours`, `label`, `measure` and `output`, and the form of the laws. Runs of equal identity
-    /// have equal bits. Every random number of a run derives from the identity (without the form of
-    /// a law).
+    /// except `title`, `neighbours`, `label`, `measure` and `output`, and the form of the laws.
+    /// Runs of equal identity have equal bits. Every random number of a run derives from the
+    /// identity (without the form of a law).
     pub fn identity(&self) -> String {
         match &self.program {
             Some(program) => identity(&self.keys_of(program)),
