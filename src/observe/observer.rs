@@ -35,6 +35,8 @@ pub struct Observer {
     has_energies: bool,
     /// Whether motion relative to the mean is recorded.
     has_fluctuation: bool,
+    /// Whether the mean speed is recorded.
+    has_speed: bool,
     /// Whether there are spheres at all: another program has its own columns only.
     has_spheres: bool,
     bins: usize,
@@ -100,6 +102,7 @@ impl Observer {
             has_axis,
             has_air: has_axis && scene.dem.effects.swirl.is_some(),
             has_fluctuation: has_axis && fluctuation,
+            has_speed: output.records("speed_mean"),
             has_contacts: scene.dem.contact.is_some(),
             has_energies: scene.spot.is_none() && (output.ledger || any(&energies)),
             has_spheres: !scene.is_external(),
@@ -189,7 +192,13 @@ impl Observer {
         self.profile.resize(start + self.bins, f32::NAN);
         let mut totals = Totals::default();
         frame.show(&mut |block| {
-            totals.add(block, self.has_energies.then_some(self.gravity));
+            totals.add(block);
+            if self.has_energies {
+                totals.add_energies(block, self.gravity);
+            }
+            if self.has_speed {
+                totals.add_speeds(block);
+            }
             if self.has_axis {
                 find_distances(block, &mut self.distance);
                 totals.add_about_axis(block, &self.distance);
@@ -293,7 +302,9 @@ impl Observer {
         };
         let speed = totals.speed.total() / count;
         let observations = &mut self.observations;
-        observations.speed_mean.push(speed as f32);
+        if self.has_speed {
+            observations.speed_mean.push(speed as f32);
+        }
         if self.has_axis {
             observations.rotation.push(rotation as f32);
         }

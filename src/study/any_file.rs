@@ -5,6 +5,7 @@ use super::ablation::{Ablation, AblationError, AblationOptions};
 use super::accuracy::{self, AccuracyStudy, Subject};
 use super::comparison::Comparison;
 use super::stability::{self, StabilityStudy};
+use crate::classify::Rules;
 use crate::document::{Document, Problem};
 use crate::run::{self, Reading};
 use crate::scene::{FileKind, Scene};
@@ -14,7 +15,7 @@ use std::path::Path;
 /// What a file describes.
 #[derive(Clone, Debug)]
 pub enum AnyFile {
-    /// A scene, as [`Scene::load_base`] returns it.
+    /// A scene, as [`Scene::load_base`] returns it, with the columns that its rules need.
     Scene(Box<Scene>),
     /// A sweep.
     Sweep(Box<Sweep>),
@@ -42,7 +43,9 @@ impl AnyFile {
         let document = Document::read(path)?;
         Ok(match FileKind::of(&document).0 {
             FileKind::Scene => {
-                Self::Scene(Box::new(run::base_of_document(&document, Reading::RUN)?))
+                let mut scene = run::base_of_document(&document, Reading::RUN)?;
+                Rules::of(&scene).choose_columns(&mut scene);
+                Self::Scene(Box::new(scene))
             }
             FileKind::Sweep if !StudyName::is_ablation(&document) => {
                 Self::Sweep(Box::new(sweep::of_document(&document)?))

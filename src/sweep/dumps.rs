@@ -1,7 +1,7 @@
 //! Labels the runs of a folder of dumps, as the thesis's analysis did.
 
 use super::{Labelling, NamePattern, work};
-use crate::classify::{self, Family, LabelRow, LabelTable, Sieves};
+use crate::classify::{self, LabelRow, LabelTable, Sieves};
 use crate::document::{Problem, number};
 use crate::grid::{Axis, PointScenes, give_the_step_to_an_axis};
 use crate::replay;
@@ -152,7 +152,7 @@ impl Labelling {
     ) -> Result<Self, rayon::ThreadPoolBuildError> {
         let mut labelling = Self {
             table: LabelTable {
-                family: Family::of(&scene.scene),
+                family: sieves.family(&scene.scene),
                 axes: scene.axes.iter().map(|axis| axis.name.clone()).collect(),
                 variants: Vec::new(),
                 rows: Vec::new(),

@@ -10,6 +10,7 @@ use crate::refusal::Refusal;
 use crate::resume::Checkpoints;
 use crate::store::{self, Holder, StoreError};
 use serde::Serialize;
+use serde_json::Value;
 use std::collections::{HashMap, HashSet};
 use std::fs;
 use std::io;
@@ -353,7 +354,7 @@ impl Folder {
     pub fn read_sweep(&self) -> Result<Sweep, FolderError> {
         let path = self.sweep();
         match fs::read(&path) {
-            Ok(text) => serde_json::from_slice(&text).map_err(|error| bad(path, error.to_string())),
+            Ok(text) => sweep_of(&text).map_err(|error| bad(path, error.to_string())),
             Err(source) => Err(match in_place_of_file(&path, &source) {
                 Some(reason) => FolderError::NoFile { path, reason },
                 None => FolderError::Io { path, source },
@@ -404,6 +405,29 @@ impl Folder {
     pub fn write_refining(&self, refining: &Refining) -> Result<(), FolderError> {
         write_unless_equal(&self.progress(), refining)
     }
+}
+
+/// Sieves that are rules by now, with their default thresholds, which the rules have too.
+const FORMER_SIEVES: [(&str, &str, f64); 3] = [
+    ("emptied", "share", 0.95),
+    ("drained", "share", 0.95),
+    ("stagnant", "height", 3.0),
+];
+
+/// A sweep as a folder holds it.
+fn sweep_of(text: &[u8]) -> serde_json::Result<Sweep> {
+    serde_json::from_slice(text).or_else(|error| {
+        let mut tree: Value = serde_json::from_slice(text)?;
+        let Some(sieves) = tree.get_mut("sieves").and_then(Value::as_object_mut) else {
+            return Err(error);
+        };
+        for (name, key, default) in FORMER_SIEVES {
+            if sieves.get(name).is_some_and(|it| it[key] == default) {
+                sieves.remove(name);
+            }
+        }
+        serde_json::from_value(tree).map_err(|_| error)
+    })
 }
 
 /// The error of a file that does not hold what it should.

@@ -140,6 +140,7 @@ pub(crate) fn of_document(document: &Document) -> Result<Sweep, LoadError> {
     }
     check_number_of_axes(&sweep.axes, &mut problems);
     check_axes(&sweep.axes, &mut problems);
+    problems.extend(variants_with_rules(&sweep));
     let rules = rules_of(&mut sweep);
     check_sieves(&sweep, document.tree(), &mut problems);
     document.accept(&problems)?;
@@ -172,6 +173,23 @@ fn problem_of_labels(named: Option<&str>, scene: &Scene) -> Option<Problem> {
         false => format!("use `labels = \"{}\"`, or remove it", family.name),
     };
     Some(Problem::new("labels", message).help(help))
+}
+
+/// Rules label all runs alike.
+fn variants_with_rules(sweep: &Sweep) -> Vec<Problem> {
+    let variants = sweep
+        .axes
+        .iter()
+        .flat_map(|axis| &axis.variants)
+        .enumerate();
+    let rules = Rules::of(&sweep.scene);
+    let others = variants.filter(|(_, variant)| Rules::of(&variant.scene) != rules);
+    let problems = others.map(|(place, variant)| {
+        let message = format!("{} changes rules, which label all runs alike", variant.name);
+        let help = "state `label` and `measure` in the sweep file, outside of variants";
+        Problem::new(format!("variant[{place}]"), message).help(help)
+    });
+    problems.collect()
 }
 
 /// The rules of a sweep, which are those of its scene's file where its own does not say any. Its
@@ -213,11 +231,14 @@ fn check_sieves(sweep: &Sweep, tree: &Value, problems: &mut Vec<Problem>) {
             "sieves",
             "the labels of this file are those of its [[label]]",
         );
-        let help = format!(
-            "remove [sieves], or [[label]]; or give `labels = \"{}\"`, and sieves label the runs \
-             of which no rule holds",
-            family.name
-        );
+        let help = match family.sieves.is_empty() {
+            true => "remove [sieves], or [[label]]".to_owned(),
+            false => format!(
+                "remove [sieves], or [[label]]; or give `labels = \"{}\"`, and sieves label the \
+                 runs of which no rule holds",
+                family.name
+            ),
+        };
         problems.push(problem.help(help).at_key());
     }
     let given = tree["sieves"].as_object().into_iter().flatten();

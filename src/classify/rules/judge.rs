@@ -54,7 +54,12 @@ pub(in crate::classify) fn judge(
         let value = number.evaluate(&run, frames(rule.over.as_ref(), record));
         values.push(value.is_finite().then_some(value));
     }
-    Ok((label.unwrap_or(of_sieves), values))
+    // Sieves may have measured what rules alone read.
+    let otherwise = match family.has_rules_alone() {
+        true => Label::OTHER,
+        false => of_sieves,
+    };
+    Ok((label.unwrap_or(otherwise), values))
 }
 
 impl Family {

@@ -172,11 +172,22 @@ impl Rules {
             let message = format!("`{name}` is a label of the program");
             return Some(Problem::new(path, message).help("use another name"));
         }
-        let is_twice = self.labels[..place].iter().any(|it| it.name == *name);
-        is_twice.then(|| {
+        if self.labels[..place].iter().any(|it| it.name == *name) {
             let message = format!("another label has the name `{name}` already");
-            Problem::new(path, message).help("join the conditions with `or`")
-        })
+            return Some(Problem::new(path, message).help("join the conditions with `or`"));
+        }
+        let is_replaced =
+            |it: &&LabelOfRule| self.labels.iter().any(|own| own.name == it.label.name);
+        let kept = of_rules.iter().filter(|it| self.sieves && !is_replaced(it));
+        let of_base = kept.flat_map(|it| it.evidence);
+        let of_sieves = Family::of(scene)
+            .measures_of_sieves()
+            .filter(|_| self.sieves);
+        let mut taken = of_base.chain(of_sieves).map(|measure| measure.name);
+        let mut columns = family::columns_of(&self.labels[place]);
+        let column = columns.find(|column| taken.any(|it| it == column))?;
+        let message = format!("the table of labels has a column `{column}` already");
+        Some(Problem::new(path, message).help("use another name"))
     }
 
     /// What is wrong with the name of a measure.

@@ -51,15 +51,10 @@ impl Default for Totals {
 }
 
 impl Totals {
-    /// Adds a block of spheres; with gravity of components along x and z (m/s2) also its energies.
-    pub(super) fn add(&mut self, block: &FrameView<'_>, gravity: Option<[f64; 2]>) {
-        let ([_, _, z], [_, _, vz]) = (block.position, block.velocity);
+    /// Adds a block of spheres.
+    pub(super) fn add(&mut self, block: &FrameView<'_>) {
+        let (z, vz) = (block.position[2], block.velocity[2]);
         self.count += block.count();
-        if let Some(gravity) = gravity {
-            self.add_energies(block, gravity);
-        }
-        let speed = |[x, y, z]: [f64; 3]| (x * x + y * y + z * z).sqrt();
-        self.speed.add(block.velocity, speed);
         self.rise.add([vz], |[vz]| vz);
         self.height.add([z], |[z]| z);
         let highest = largest(z);
@@ -75,7 +70,14 @@ impl Totals {
         self.flow = block.flow;
     }
 
-    fn add_energies(&mut self, block: &FrameView<'_>, [gx, gz]: [f64; 2]) {
+    /// Adds speeds.
+    pub(super) fn add_speeds(&mut self, block: &FrameView<'_>) {
+        let speed = |[x, y, z]: [f64; 3]| (x * x + y * y + z * z).sqrt();
+        self.speed.add(block.velocity, speed);
+    }
+
+    /// Adds energies, under gravity of these components along x and z (m/s2).
+    pub(super) fn add_energies(&mut self, block: &FrameView<'_>, [gx, gz]: [f64; 2]) {
         let ([x, _, z], [vx, vy, vz]) = (block.position, block.velocity);
         self.kinetic
             .add([block.mass, vx, vy, vz], |[mass, x, y, z]| {

@@ -26,7 +26,7 @@ const FEWEST: usize = 3;
 struct FittedMargins {
     codes: Vec<Code>,
     /// The rules in the order in which they decide, each with its place among the codes.
-    rules: Vec<(usize, Option<RuleMargin>)>,
+    rules: Vec<(usize, RuleMargin)>,
     /// The codes of runs of which no rule holds.
     otherwise: Vec<usize>,
     /// The probabilities of runs with margins and of those without, by codes of the latter.
@@ -34,11 +34,16 @@ struct FittedMargins {
 }
 
 /// The margin of one rule.
-struct RuleMargin {
-    regression: Regressed,
-    mean: f64,
-    /// By what the spread is multiplied.
-    inflation: f64,
+enum RuleMargin {
+    /// Learnt from runs.
+    Learnt {
+        regression: Box<Regressed>,
+        mean: f64,
+        /// By what the spread is multiplied.
+        inflation: f64,
+    },
+    /// The same in all runs, or known of too few: the share of runs in which the rule holds.
+    Level(f64),
 }
 
 impl LabelModel for Margins {
@@ -79,7 +84,7 @@ impl LabelModel for Margins {
             });
             (Propagation.fit(&relabelled), labels_without)
         });
-        let margin = |rule: usize| RuleMargin::new(runs, rule);
+        let margin = |rule: usize| RuleMargin::new(runs, rule, rules[rule]);
         Box::new(FittedMargins {
             rules: (0..rules.len())
                 .map(|rule| (place(rules[rule]), margin(rule)))
@@ -92,36 +97,48 @@ impl LabelModel for Margins {
 }
 
 impl RuleMargin {
-    /// Learns from the runs in which the margin is a number; none from too few.
-    fn new(runs: &Training, rule: usize) -> Option<Self> {
+    /// Learns from the runs in which the margin is a number; the rule gives this label.
+    fn new(runs: &Training, rule: usize, label: Code) -> Self {
         let value = |run: usize| {
             let mut margins = runs.margins(run..run + 1);
             let margin = margins.next()?.get(rule)?.1;
             margin.is_finite().then_some(margin)
         };
         let known: Vec<usize> = (0..runs.runs()).filter(|it| value(*it).is_some()).collect();
-        if known.len() < FEWEST {
-            return None;
-        }
         let values: Vec<f64> = known.iter().filter_map(|run| value(*run)).collect();
+        // On the border itself only a run with the label tells.
+        let holds = |run: &&usize| {
+            let is_label = runs.codes()[runs.label(**run)] == label;
+            value(**run).is_some_and(|margin| margin > 0.0 || (margin == 0.0 && is_label))
+        };
+        let share = known.iter().filter(holds).count() as f64 / known.len().max(1) as f64;
+        if known.len() < FEWEST || values.iter().all(|margin| *margin == values[0]) {
+            return Self::Level(share);
+        }
         let mean = values.iter().sum::<f64>() / values.len() as f64;
         let targets: Vec<f64> = values.iter().map(|value| value - mean).collect();
-        if targets.iter().all(|target| *target == 0.0) {
-            return None;
-        }
         let regression = Regressed::best(&runs.only(&known), std::slice::from_ref(&targets));
         let inflation = regression.left_out_residual(&targets).max(1.0);
-        Some(Self {
-            regression,
+        Self::Learnt {
+            regression: Box::new(regression),
             mean,
             inflation,
-        })
+        }
     }
 
     /// Probability that the rule holds at a place.
     fn holds(&self, unit: &[f64]) -> f64 {
-        let (means, spread) = self.regression.latent(unit);
-        normal::below((self.mean + means[0]) / (self.inflation * spread))
+        match self {
+            Self::Learnt {
+                regression,
+                mean,
+                inflation,
+            } => {
+                let (means, spread) = regression.latent(unit);
+                normal::below((mean + means[0]) / (inflation * spread))
+            }
+            Self::Level(share) => *share,
+        }
     }
 }
 
@@ -140,14 +157,17 @@ impl Fitted for FittedMargins {
                 }
             }
             for (label, margin) in &self.rules {
-                let holds = margin.as_ref().map_or(0.0, |it| it.holds(unit));
+                let holds = margin.holds(unit);
                 probabilities[*label] += rest * holds;
                 rest *= 1.0 - holds;
             }
             // One label at most is without a rule.
             match self.otherwise.first() {
                 Some(label) => probabilities[*label] += rest,
-                None => return super::normalised(probabilities),
+                None if probabilities.iter().sum::<f64>() > 0.0 => {
+                    return super::normalised(probabilities);
+                }
+                None => probabilities.fill(1.0 / self.codes.len() as f64),
             }
             probabilities
         };

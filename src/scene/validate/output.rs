@@ -14,6 +14,9 @@ const MOST_IN_STATES: f64 = 1e9;
 /// Numbers in the state of a sphere: position, velocity, spin.
 const NUMBERS_OF_A_SPHERE: f64 = 9.0;
 
+/// Most bins of a profile.
+const MOST_BINS: usize = 200;
+
 impl Scene {
     pub(super) fn check_output(&self, problems: &mut Vec<Problem>) {
         self.check_states(problems);
@@ -92,6 +95,10 @@ impl Scene {
                     format!("this scene has no profile `{name}`: {why}"),
                     "remove it",
                 );
+            }
+            if profile.bins > MOST_BINS {
+                let message = format!("{} bins are too many", profile.bins);
+                refuse("bins", message, &format!("use {MOST_BINS} or fewer"));
             }
             if profile.to <= profile.from {
                 let message = "the last bin does not end above the beginning of the first";

@@ -147,3 +147,39 @@ fn runs_without_margins_are_told_apart() {
     assert_eq!([at(2, 2), at(2, 38)], [Code::MIN; 2]);
     assert_eq!([at(14, 4), at(14, 36), at(36, 4)], [NONE, FIRST, SECOND]);
 }
+
+/// Symptom: a rule that holds everywhere had no place on the map, and one alone made probabilities
+/// that are not numbers. Cause: a margin that is the same in all runs was taken for one that is not
+/// known.
+#[test]
+fn rules_that_hold_everywhere_or_nowhere_are_known() {
+    let settings = settings(ModelKind::Margins);
+    for (first, second, label) in [
+        (1.0, -1.0, FIRST),
+        (-1.0, 1.0, SECOND),
+        (-1.0, -1.0, NONE),
+        (0.0, f64::NAN, NONE),
+    ] {
+        let runs = refined(&settings, |_| Finding {
+            label,
+            margins: vec![(FIRST, first), (SECOND, second)],
+        });
+        let map = probabilities(&lattice(), &runs, &settings).unwrap();
+        for place in 0..map.places() {
+            assert_eq!(map.label(place), label, "{first} {second}");
+            assert_eq!(map.certainty(place), 1.0, "{first} {second}");
+        }
+    }
+    // A catch-all behind a rule with a border.
+    let runs = refined(&settings, |run| {
+        let mut found = found(run, 1);
+        found.margins[1].1 = 1.0;
+        if found.label != FIRST {
+            found.label = SECOND;
+        }
+        found
+    });
+    let map = probabilities(&lattice(), &runs, &settings).unwrap();
+    let at = |x: usize, y: usize| map.label(lattice().place(&[x, y]));
+    assert_eq!([at(4, 4), at(36, 4), at(4, 36)], [SECOND, SECOND, FIRST]);
+}

@@ -1,7 +1,7 @@
 //! How rules go with families of scenes: alone, before sieves, from a scene's own file.
 
 use super::sweeps::{cells, text};
-use crate::support::{Workplace, scene_file};
+use crate::support::{Workplace, drainage_file, scene_file};
 
 /// With `labels = "tank"` the sieves label the runs of which no rule holds.
 #[test]
@@ -118,6 +118,12 @@ fn rules_read_the_measures_of_the_sieves() {
         let late = settled.is_some_and(|it| it > 0.01);
         assert_eq!(own[0], if late { "late" } else { "other" });
     }
+    // Symptom: runs of which no rule holds had the labels of the sieves. Cause: the sieves, which
+    // measure what the rule reads, decided about the rest.
+    place.write("own.toml", &text(&rule.replace("0.01[s]", "1e6[s]")));
+    place.phase(&["sweep", "own.toml"]).code(0);
+    let own = cells(&place, "results/own/labels.csv", &["label"]);
+    assert!(own.iter().all(|row| row[0] == "other"), "{own:?}");
     place.write("bad.toml", &text(&rule.replace("0.01[s]", "0.01[m]")));
     place
         .phase(&["sweep", "bad.toml"])
@@ -168,4 +174,100 @@ fn records_with_rules_are_compared_by_all_measures() {
         .phase(&["compare", "1.h5", "2.h5"])
         .code(0)
         .says("turning");
+}
+
+/// Symptom: dumps of a scene with rules could not be labelled. Cause: the table was of the family
+/// without rules.
+#[test]
+fn dumps_are_labelled_by_the_rules_of_their_scene() {
+    let place = Workplace::new();
+    let rules = "[[label]]\nname = \"high\"\nwhen = \"max(height_mean) > -1\"\n";
+    place.write("scene.toml", &(scene_file() + rules));
+    let run = ["run", "scene.toml", "--trajectory", "--out", "run.h5"];
+    place.phase(&run).code(0);
+    place
+        .phase(&["export", "run.h5", "--to", "dump", "--out", "dumps"])
+        .code(0);
+    place
+        .phase(&["classify", "dumps", "--scene", "scene.toml"])
+        .code(0);
+    let rows = cells(&place, "dumps/labels.csv", &["label"]);
+    assert_eq!(rows, [["high"]]);
+    // Names that do not fit leave the tables as they were.
+    place
+        .phase(&[
+            "classify",
+            "dumps",
+            "--scene",
+            "scene.toml",
+            "--names",
+            "x@{seed}.npy",
+        ])
+        .code(1)
+        .complains("its tables were left unchanged");
+    assert_eq!(cells(&place, "dumps/labels.csv", &["label"]), rows);
+}
+
+/// Symptom: a table of labels had two columns `stagnant_value`. Cause: the evidence of a rule that
+/// stays was not looked at.
+#[test]
+fn evidence_has_names_of_its_own() {
+    let place = Workplace::new();
+    place.write("scene.toml", &drainage_file());
+    let sweep = |name: &str| {
+        format!(
+            "scene = \"scene.toml\"\nlabels = \"drainage\"\n[[label]]\nname = \"{name}\"\n\
+             when = \"left_share > 0.5\"\n[[axis]]\nkey = \"spot.diffusion_length\"\n\
+             values = [2.0, 2.5]\n"
+        )
+    };
+    for name in ["stagnant", "drained"] {
+        place.write("sweep.toml", &sweep(name));
+        place
+            .phase(&["check", "sweep.toml", "--no-trial"])
+            .code(2)
+            .complains(&format!("has a column `{name}_value` already"));
+    }
+    place.write("sweep.toml", &sweep("emptied"));
+    place.phase(&["check", "sweep.toml", "--no-trial"]).code(0);
+}
+
+/// Rules label all runs alike.
+#[test]
+fn variants_do_not_change_rules() {
+    let place = Workplace::new();
+    let rules = "[[label]]\nname = \"high\"\nwhen = \"max(height_mean) > -1\"\n";
+    place.write("scene.toml", &(scene_file() + rules));
+    let sweep = "scene = \"scene.toml\"\n[[variant]]\nname = \"as-it-is\"\n\
+                 [[variant]]\nname = \"unlabelled\"\nwithout = [\"label\"]\n";
+    place.write("sweep.toml", sweep);
+    place
+        .phase(&["check", "sweep.toml", "--no-trial"])
+        .code(2)
+        .complains("unlabelled changes rules, which label all runs alike");
+}
+
+/// Symptom: folders from before two sieves became rules were refused. Cause: `sweep.json` still has
+/// their keys.
+#[test]
+fn folders_with_former_sieves_are_read() {
+    let place = Workplace::new();
+    place.write("tiny.toml", &text(""));
+    place.phase(&["sweep", "tiny.toml", "--no-plot"]).code(0);
+    let json = place.read("results/tiny/sweep.json");
+    let (before, after) = json.split_once("\"arching\"").unwrap();
+    let old =
+        |share: &str| format!("{before}\"emptied\": {{\"share\": {share}}}, \"arching\"{after}");
+    place.write("results/tiny/sweep.json", &old("0.95"));
+    place
+        .phase(&["status", "results/tiny"])
+        .code(0)
+        .says("6 done");
+    place.phase(&["classify", "results/tiny"]).code(0);
+    // Another threshold needs a rule, which nobody can guess.
+    place.write("results/tiny/sweep.json", &old("0.5"));
+    place
+        .phase(&["status", "results/tiny"])
+        .code(1)
+        .complains("unknown field `emptied`");
 }

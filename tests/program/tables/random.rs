@@ -203,7 +203,7 @@ const WORDS: [&str; 28] = [
 fn every_truncated_array_is_refused() {
     let arrays = valid().split_off(4).into_iter();
     for (format, bytes) in arrays.filter(|(_, bytes)| bytes.len() < 3000) {
-        for length in 0..bytes.len() {
+        for length in (0..bytes.len()).step_by(bytes.len().div_ceil(700)) {
             let read = read_bytes("file", &bytes[..length], format, &["time", "energy"], MOST);
             assert!(read.is_err(), "{length}");
         }

@@ -29,6 +29,10 @@ pub(super) fn label(
     folders::refuse_foreign(folder, tables, "use a folder with the dumps alone")?;
     let labelling = Labelling::of_dumps(&dumps, &scene, sieves, workers)?;
     tell_of_problems(&labelling, console);
+    if labelling.table.rows.is_empty() {
+        let reason = "no dump could be labelled; its tables were left unchanged";
+        return Err(Failure::failed(reason).at(folder));
+    }
     let folder = Folder::new(folder);
     let labelled = labelling.replace(&folder)?;
     tell_of_labels(&labelled, &folder, console);
