@@ -253,7 +253,10 @@ mod tests {
         assert_eq!(verdict.value("discharged_share"), None);
         let restless = judge(&draining(0, 0.0).before(MilestoneKind::AtRest));
         assert_eq!(restless.label, Label::UNSETTLED);
-        assert_eq!(restless.values, [None; 14]);
+        // Only the number in the rule of *emptied* is known.
+        let known = restless.values.iter().flatten();
+        assert_eq!(known.collect::<Vec<_>>(), [&0.95]);
+        assert_eq!(restless.value("emptied_threshold"), Some(0.95));
     }
 
     #[test]
@@ -280,7 +283,7 @@ mod tests {
         assert!(classify(&record, &Sieves::default()).is_err());
         let verdict = judge(&record.unstable());
         assert_eq!(verdict.label, Label::UNSTABLE);
-        assert_eq!(verdict.values, [None; 14]);
+        assert_eq!(verdict.values, [None; 16]);
     }
 
     /// Symptom: a door that opened while grains came in gave a mass per second far too small.
