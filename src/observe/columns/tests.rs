@@ -88,6 +88,11 @@ proptest! {
         let moved = spheres.moved(drift).values();
         prop_assert_eq!(here.len(), 6);
         for ((name, value), (_, other)) in here.into_iter().zip(moved) {
+            if name == "surface_angle" && value.is_nan() {
+                // All centres are over one square, which has no slope.
+                prop_assert!(other.is_nan());
+                continue;
+            }
             prop_assert!(value >= 0.0, "{name}: {value}");
             prop_assert!((value - other).abs() <= 1e-9 * (1.0 + value), "{name}: {value}, {other}");
             let most = match name.as_str() {
