@@ -160,14 +160,16 @@ impl SpoutSieve {
             }
         }
         let peak = deciding.and_then(|window| window.iter().copied().max());
-        let label = peak.map(|peak| match below(peak, self.small) {
+        let peak = peak.map(|peak| peak as f64 / count);
+        // By the stored evidence, so that it tells the label for any threshold.
+        let label = peak.map(|peak| match peak < self.small {
             true => Label::SMALL_SPOUT,
             false => Label::LARGE_SPOUT,
         });
         let evidence = SpoutEvidence {
             spout_share: window::largest_share(&qualifies, window, 1.0),
             spout_margin: Some(longest as f64 / window as f64 - 1.0),
-            spout_peak: peak.map(|peak| peak as f64 / count),
+            spout_peak: peak,
         };
         (label, evidence)
     }
