@@ -1,10 +1,12 @@
 //! The curves of the critical rotation, without and with friction, drawn over a figure.
 
+use super::PlotError;
 use super::chart::samples;
 use super::contour::{Nodes, Piece};
 use super::grid::{GridAxis, GridPanel, PanelGrid};
 use super::panel_curve::{PanelCurve, Stroke};
 use super::scale::AxisSpan;
+use crate::classify::LabelTable;
 use crate::grid::Variant;
 use crate::scene::Scene;
 use crate::sweep::Sweep;
@@ -64,6 +66,62 @@ pub(super) fn curves<P>(
         curve(|scene, place| scene.with_friction(place), Stroke::Dashed),
         curve(|scene, place| scene.without_friction(place), Stroke::Full),
     ]
+}
+
+/// A curve of theory over two axes of a sweep, in values of their keys.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TheoryCurve {
+    /// Its name, with markup.
+    pub name: &'static str,
+    /// Whether it is a line of advice rather than a border between states.
+    pub is_advice: bool,
+    /// Indices of the horizontal and the vertical axis.
+    pub axes: [usize; 2],
+    /// Index and value of each other axis that it is for.
+    pub slice: Vec<(usize, f64)>,
+    /// Pieces of the curve: points (x, y).
+    pub pieces: Vec<Vec<(f64, f64)>>,
+}
+
+/// The curves of theory that figures of a sweep show, for each of their panels.
+///
+/// # Errors
+/// A table that does not belong to the sweep; no axis, or more than four.
+pub fn theory_curves(sweep: &Sweep, table: &LabelTable) -> Result<Vec<TheoryCurve>, PlotError> {
+    let grid = PanelGrid::new(sweep, table)?;
+    let mut all = Vec::new();
+    for panel in &grid.panels {
+        let (x, Some(y)) = grid.axes(panel) else {
+            continue;
+        };
+        // Between variants there is nothing to draw a curve over.
+        if !x.words.is_empty() || !y.words.is_empty() {
+            continue;
+        }
+        let others = [(&grid.columns, panel.column), (&grid.rows, panel.row)];
+        let slice = others.into_iter();
+        let slice = slice.filter_map(|(axis, value)| Some((axis.as_ref()?.index, value?)));
+        let slice: Vec<(usize, f64)> = slice.collect();
+        let [full, dashed] = WORDS;
+        let value = |piece: Piece| -> Vec<(f64, f64)> {
+            let points = piece.into_iter();
+            points
+                .map(|(across, up)| (x.value(across), y.value(up)))
+                .collect()
+        };
+        let curves = curves(sweep, &grid, panel).into_iter();
+        all.extend(curves.filter(|it| !it.pieces.is_empty()).map(|curve| {
+            let is_advice = curve.stroke == Stroke::Dashed;
+            TheoryCurve {
+                name: if is_advice { dashed } else { full },
+                is_advice,
+                axes: [x.index, y.index],
+                slice: slice.clone(),
+                pieces: curve.pieces.into_iter().map(value).collect(),
+            }
+        }));
+    }
+    Ok(all)
 }
 
 /// The scene of a panel, in which keys change along one of its axes.
@@ -161,12 +219,10 @@ fn of_scene(key: &str, scene: &Scene) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Source;
     use super::*;
     use crate::classify::{Label, Sieves, TANK, Verdict};
     use crate::classify::{LabelRow, LabelTable};
     use crate::grid::Axis;
-    use crate::record::Program;
     use crate::sweep::PlotSettings;
     use serde_json::json;
 
@@ -218,17 +274,7 @@ mod tests {
             variants: sweep.variants(),
             rows: vec![row],
         };
-        let grid = PanelGrid::new(&Source {
-            sweep: &sweep,
-            refining: None,
-            table: &table,
-            failures: &[],
-            record: &|id| panic!("the grid read the record {id}"),
-            points: &[],
-            times: None,
-            program: &Program::current(),
-        })
-        .unwrap();
+        let grid = PanelGrid::new(&sweep, &table).unwrap();
         let of = |panel| {
             let mut curves = super::curves(&sweep, &grid, panel);
             curves.pop().map(|curve| curve.pieces).unwrap_or_default()

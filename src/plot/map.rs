@@ -104,7 +104,7 @@ impl MeasureMap {
     }
 
     pub(super) fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
-        let grid = PanelGrid::new(source)?;
+        let grid = PanelGrid::new(source.sweep, source.table)?;
         let points = grid
             .panels
             .iter()

@@ -32,7 +32,7 @@ pub(super) fn with_diagram(
     source: &Source<'_>,
     draw: impl FnOnce(&Diagram<'_>) -> Result<Svg, PlotError>,
 ) -> Result<Svg, PlotError> {
-    let grid = PanelGrid::new(source)?;
+    let grid = PanelGrid::new(source.sweep, source.table)?;
     let points: Vec<&Point> = grid
         .panels
         .iter()

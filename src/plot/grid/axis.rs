@@ -35,6 +35,27 @@ pub(in crate::plot) struct GridAxis {
     pub(in crate::plot) words: Vec<String>,
 }
 
+/// How figures show an axis of a sweep.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ShownAxis {
+    /// Shown value over the value of the key.
+    pub factor: f64,
+    /// Symbol, with markup, and unit of the shown values.
+    pub symbol: String,
+    /// Their unit; empty for numbers.
+    pub unit: String,
+}
+
+/// How figures show the axis of this index; none if no factor leads to what they show.
+pub fn shown_axis(index: usize, sweep: &Sweep, table: &LabelTable) -> Option<ShownAxis> {
+    let axis = GridAxis::new(index, sweep, table);
+    axis.other_shares.is_none().then_some(ShownAxis {
+        factor: axis.factor,
+        symbol: axis.symbol,
+        unit: axis.unit,
+    })
+}
+
 impl GridAxis {
     /// The axis of this index in the sweep.
     pub(in crate::plot) fn new(index: usize, sweep: &Sweep, table: &LabelTable) -> Self {

@@ -8,6 +8,7 @@ use crate::classify::{LabelTable, Point};
 use crate::grid::Axis;
 use crate::sweep::{Failure, Sweep};
 pub(super) use axis::{GridAxis, strip};
+pub use axis::{ShownAxis, shown_axis};
 use std::collections::HashSet;
 
 /// One of the small multiples; its cells hold points of a sweep, or of something else.
@@ -40,8 +41,7 @@ pub(super) struct PanelGrid<P = Point> {
 
 impl PanelGrid {
     /// Chooses the axes as the sweep's plot settings say and sorts the table into cells.
-    pub(super) fn new(source: &Source<'_>) -> Result<Self, PlotError> {
-        let (sweep, table) = (source.sweep, source.table);
+    pub(super) fn new(sweep: &Sweep, table: &LabelTable) -> Result<Self, PlotError> {
         check(sweep, table)?;
         let places = places(sweep)?;
         let axis = |place: usize| places[place].map(|index| GridAxis::new(index, sweep, table));
@@ -206,7 +206,10 @@ pub(super) fn check(sweep: &Sweep, table: &LabelTable) -> Result<(), PlotError> 
 
 /// Indices of the axes shown as x, y, columns and rows: those that the settings name, then the
 /// others in order.
-pub(super) fn places(sweep: &Sweep) -> Result<[Option<usize>; 4], PlotError> {
+///
+/// # Errors
+/// The settings name an axis that the sweep lacks, or one twice; or there are more than four axes.
+pub fn places(sweep: &Sweep) -> Result<[Option<usize>; 4], PlotError> {
     let settings = &sweep.plot;
     let named = [&settings.x, &settings.y, &settings.panels];
     let mut places = [None; 4];
