@@ -4,6 +4,7 @@ mod builds;
 mod cluster;
 mod columns;
 mod commands;
+mod compared;
 mod console;
 mod exit;
 mod figures;

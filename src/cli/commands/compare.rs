@@ -1,10 +1,10 @@
 //! `phase compare`: compares the numbers of runs, or the labels of two sweeps.
 
-mod inputs;
 mod sweeps;
-mod table;
 
 use crate::cli::columns::{in_columns, written};
+use crate::cli::compared::table::Column;
+use crate::cli::compared::{self as inputs, table};
 use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::folders;
@@ -15,7 +15,6 @@ use phase::scene::Units;
 use phase::statistics::Estimate;
 use serde::Serialize;
 use std::path::PathBuf;
-use table::Column;
 
 /// Compare runs: records, or two folders of sweeps.
 ///

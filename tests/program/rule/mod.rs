@@ -9,6 +9,6 @@ mod limits;
 mod reductions;
 mod refused;
 mod run;
-mod sweeps;
+pub(crate) mod sweeps;
 mod trees;
 mod units;

@@ -35,7 +35,7 @@ pub(super) fn text(rules: &str) -> String {
 }
 
 /// The columns of a table by their names, row by row.
-pub(super) fn cells(place: &Workplace, table: &str, names: &[&str]) -> Vec<Vec<String>> {
+pub(crate) fn cells(place: &Workplace, table: &str, names: &[&str]) -> Vec<Vec<String>> {
     let text = place.read(table);
     let mut lines = text.lines().map(|line| line.split(',').collect::<Vec<_>>());
     let header = lines.next().unwrap();

@@ -1,7 +1,8 @@
 //! Compares the labels and measures of two sweeps.
 
-use super::{Answer, Arguments, Entry, table};
+use super::{Answer, Arguments, Entry};
 use crate::cli::columns::{in_columns, written};
+use crate::cli::compared::table;
 use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::{figures, folders, labels};

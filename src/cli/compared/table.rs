@@ -7,20 +7,20 @@ use phase::store;
 use std::path::Path;
 
 /// The numbers of a record: name and unit of each, and its value.
-pub(super) struct Column {
-    pub(super) name: String,
-    pub(super) values: Vec<([String; 2], Option<Estimate>)>,
+pub(in crate::cli) struct Column {
+    pub(in crate::cli) name: String,
+    pub(in crate::cli) values: Vec<([String; 2], Option<Estimate>)>,
     /// First and last time (s) since the opening between which a drainage was measured.
-    pub(super) window: Option<[f64; 2]>,
+    pub(in crate::cli) window: Option<[f64; 2]>,
 }
 
 /// First column of the table.
-pub(super) const QUANTITY: &str = "quantity";
+pub(in crate::cli) const QUANTITY: &str = "quantity";
 
 const COLUMNS: [&str; 5] = [QUANTITY, "unit", "record", "value", "half_width"];
 
 /// Refuses two records of one name: a table could not distinguish them.
-pub(super) fn check(names: &[String]) -> Result<(), Failure> {
+pub(in crate::cli) fn check(names: &[String]) -> Result<(), Failure> {
     let mut again = names.iter().enumerate();
     match again.find(|(place, name)| names[..*place].contains(name)) {
         None => Ok(()),
@@ -31,7 +31,11 @@ pub(super) fn check(names: &[String]) -> Result<(), Failure> {
     }
 }
 
-pub(super) fn write(path: &Path, rows: &[ComparisonRow], names: &[String]) -> Result<(), Failure> {
+pub(in crate::cli) fn write(
+    path: &Path,
+    rows: &[ComparisonRow],
+    names: &[String],
+) -> Result<(), Failure> {
     let text = written(rows, names).map_err(Failure::failed)?;
     Ok(store::write_atomic(path, &text)?)
 }

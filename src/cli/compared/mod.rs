@@ -1,6 +1,7 @@
 //! Inputs of a comparison: records, files of other programs, tables of earlier comparisons.
 
-use super::table::{self, Column};
+pub(super) mod table;
+
 use crate::cli::exit::Failure;
 use crate::cli::runs;
 use phase::classify::{DRAINAGE, Family, Measure, Sieves, classify};
@@ -10,9 +11,10 @@ use phase::record::RunRecord;
 use phase::scene::Units;
 use phase::statistics::Estimate;
 use std::path::{Path, PathBuf};
+use table::Column;
 
 /// A file that is compared.
-pub(super) enum Input {
+pub(in crate::cli) enum Input {
     /// A run.
     Run(PathBuf, Box<RunRecord>),
     /// The columns of a table.
@@ -20,7 +22,7 @@ pub(super) enum Input {
 }
 
 /// Reads all files. Files of other programs take the given scene, or else the first record's.
-pub(super) fn read(paths: &[PathBuf], scene: Option<&Path>) -> Result<Vec<Input>, Failure> {
+pub(in crate::cli) fn read(paths: &[PathBuf], scene: Option<&Path>) -> Result<Vec<Input>, Failure> {
     let is_table = |path: &&PathBuf| {
         path.extension()
             .is_some_and(|end| end.eq_ignore_ascii_case("csv"))
@@ -42,7 +44,10 @@ pub(super) fn read(paths: &[PathBuf], scene: Option<&Path>) -> Result<Vec<Input>
 
 /// The numbers of all inputs, one column for each record: for drainages measurements on their
 /// states within `times`, for other runs the measures of their sieves.
-pub(super) fn columns(inputs: &[Input], times: Option<[f64; 2]>) -> Result<Vec<Column>, Failure> {
+pub(in crate::cli) fn columns(
+    inputs: &[Input],
+    times: Option<[f64; 2]>,
+) -> Result<Vec<Column>, Failure> {
     let of_runs = inputs.iter().filter_map(|input| match input {
         Input::Run(path, record) => Some((path, &**record)),
         Input::Table(_) => None,
@@ -76,7 +81,7 @@ pub(super) fn columns(inputs: &[Input], times: Option<[f64; 2]>) -> Result<Vec<C
 }
 
 /// The units of the drainages. Numbers of two units are not compared.
-pub(super) fn units(inputs: &[Input]) -> Result<Units, Failure> {
+pub(in crate::cli) fn units(inputs: &[Input]) -> Result<Units, Failure> {
     let scenes = inputs.iter().filter_map(|input| match input {
         Input::Run(path, record) if Family::of(&record.scene) == &DRAINAGE => {
             Some((path, record.scene.units()))
@@ -187,7 +192,7 @@ fn names(records: &[&RunRecord], paths: &[&PathBuf]) -> Vec<String> {
 }
 
 /// The columns as rows, one for each quantity that any of them has.
-pub(super) fn rows(columns: &[Column]) -> Vec<ComparisonRow> {
+pub(in crate::cli) fn rows(columns: &[Column]) -> Vec<ComparisonRow> {
     let mut quantities: Vec<&[String; 2]> = Vec::new();
     for (quantity, _) in columns.iter().flat_map(|it| &it.values) {
         if !quantities.contains(&quantity) {
