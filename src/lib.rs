@@ -117,6 +117,7 @@ pub mod refusal;
 pub mod render;
 #[doc(hidden)]
 pub mod replay;
+pub mod report;
 pub mod resume;
 #[doc(hidden)]
 pub mod rule;

@@ -100,6 +100,15 @@ pub(crate) fn count(number: usize, thing: &str) -> String {
     format!("{number} {thing}{plural}")
 }
 
+/// A text as a shell takes it for one word that is no option.
+pub(crate) fn shell_word(text: &str) -> String {
+    let is_plain = |letter: char| letter.is_ascii_alphanumeric() || "/._-+=:,@".contains(letter);
+    match !text.is_empty() && !text.starts_with('-') && text.chars().all(is_plain) {
+        true => text.to_owned(),
+        false => format!("'{}'", text.replace('\'', "'\\''")),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -140,5 +149,19 @@ mod tests {
         assert_eq!(work(960_000.0, "sphere-steps"), "960 k sphere-steps");
         assert_eq!(rate(7.0, "spot-moves"), "7 spot-moves/s");
         assert_eq!(rate(0.42, "runs"), "0.4 runs/s");
+    }
+
+    #[test]
+    fn words_of_a_shell_are_quoted_where_needed() {
+        for (text, word) in [
+            ("results/quick", "results/quick"),
+            ("my results", "'my results'"),
+            ("it's", "'it'\\''s'"),
+            ("-x", "'-x'"),
+            ("", "''"),
+            ("$HOME", "'$HOME'"),
+        ] {
+            assert_eq!(shell_word(text), word);
+        }
     }
 }

@@ -1,7 +1,8 @@
 //! Checked conditions.
 
 use crate::rule::Values;
-use crate::rule::evaluate::{Evidence, Frames, Needs, Reduction, Test, evidence};
+use crate::rule::evaluate::{Evidence, Formula, Frames, Needs, Reduction, Test, evidence};
+use crate::rule::syntax::Comparator;
 use std::ops::Range;
 
 /// A condition whose names and units are checked.
@@ -11,7 +12,43 @@ pub struct Condition {
     pub(in crate::rule) needs: Needs,
 }
 
+/// A condition that is one comparison of a run's number with a fixed one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SingleComparison {
+    /// What is on its left, in normal form.
+    pub left: String,
+    /// Its sign, `<`, `<=`, `>` or `>=`.
+    pub order: &'static str,
+    /// The number on its right.
+    pub threshold: f64,
+    /// Unit of both sides; empty of pure numbers.
+    pub unit: String,
+}
+
 impl Condition {
+    /// The condition as one comparison with a number, if it is one.
+    pub fn single_comparison(&self) -> Option<SingleComparison> {
+        let Test::Comparison(comparison) = &self.test else {
+            return None;
+        };
+        let Formula::Number(threshold) = comparison.threshold else {
+            return None;
+        };
+        let order = match comparison.order {
+            Comparator::Equal | Comparator::NotEqual => return None,
+            order => order.symbol(),
+        };
+        let sign = format!(" {order} ");
+        let left = comparison.text.rsplit_once(&sign)?.0.to_owned();
+        let unit = comparison.unit.to_string();
+        Some(SingleComparison {
+            left,
+            order,
+            threshold,
+            unit: if unit == "1" { String::new() } else { unit },
+        })
+    }
+
     /// The columns that it needs, in alphabetic order.
     pub fn columns(&self) -> &[String] {
         &self.needs.columns

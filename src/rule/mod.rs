@@ -50,7 +50,7 @@ mod number;
 mod syntax;
 mod unit;
 
-pub use condition::Condition;
+pub use condition::{Condition, SingleComparison};
 pub use error::ExpressionError;
 pub use evaluate::{ComparisonEvidence, Evidence};
 pub use expression::Expression;

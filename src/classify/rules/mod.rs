@@ -9,11 +9,13 @@ mod family;
 mod judge;
 mod names;
 mod of_family;
+mod stored;
 mod window;
 
 pub(super) use family::family;
 pub(super) use judge::judge;
 pub(super) use of_family::{LabelOfRule, MARGIN, MeasureOfRule, rule};
+pub use stored::StoredRule;
 
 use super::{FAMILIES, Family, Label, Sieves};
 use crate::document::Problem;

@@ -13,7 +13,7 @@ pub(super) mod spout;
 mod synthetic;
 
 pub use fluid::FluidSieve;
-pub use pinned::PinnedSieve;
+pub use pinned::{PinnedSieve, pinned_shares};
 pub use settle::SettleSieve;
 pub use spout::SpoutSieve;
 

@@ -3,8 +3,9 @@
 use super::run::TankRun;
 use crate::classify::measure::{evidence, measures};
 use crate::classify::sieve::{Sieve, Sifted, if_yes};
-use crate::classify::{ClassifyError, Label, Measure, window};
+use crate::classify::{ClassifyError, Label, Measure, Sieves, window};
 use crate::document::unit;
+use crate::record::RunRecord;
 use crate::scene::Scene;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -87,6 +88,28 @@ impl Sieve for PinnedSieve {
             values: evidence.values(),
         }
     }
+}
+
+/// What the evidence `pinned_share` of a run in a tank would be if a hole had each of these radii,
+/// in radii of the spheres.
+///
+/// # Errors
+/// The sieves cannot judge the run.
+pub fn pinned_shares(
+    record: &RunRecord,
+    sieves: &Sieves,
+    holes: &[f64],
+) -> Result<Vec<Option<f64>>, ClassifyError> {
+    let mut run = TankRun::new(record, sieves.spout.column(&record.scene.output)?)?;
+    sieves.settle.sift(&mut run);
+    let share = |hole: &f64| {
+        let sieve = PinnedSieve {
+            hole: *hole,
+            ..sieves.pinned.clone()
+        };
+        sieve.largest_share(&run, run.start?)
+    };
+    Ok(holes.iter().map(share).collect())
 }
 
 impl PinnedSieve {

@@ -11,6 +11,7 @@ mod jobs;
 mod merge;
 mod new;
 mod plot;
+mod report;
 mod run;
 mod status;
 mod study;
@@ -28,6 +29,7 @@ pub(super) enum Command {
     Sweep(sweep::Arguments),
     Classify(classify::Arguments),
     Plot(plot::Arguments),
+    Report(report::Arguments),
     Run(run::Arguments),
     Export(export::Arguments),
     View(view::Arguments),
@@ -57,6 +59,7 @@ impl Command {
             Self::Sweep(arguments) => sweep::main(arguments, console),
             Self::Classify(arguments) => classify::main(arguments, console),
             Self::Plot(arguments) => plot::main(arguments, console),
+            Self::Report(arguments) => report::main(arguments, console),
             Self::Run(arguments) => run::main(arguments, console),
             Self::Export(arguments) => export::main(arguments, console),
             Self::View(arguments) => view::main(arguments, console),

@@ -203,6 +203,8 @@ fn label(
         let problems = figures::draw_default_figures(folder, sweep, &labelled.table, console);
         answer.problems = problems;
     }
+    let root = format::shell_word(&folder.root().display().to_string());
+    console.result(format_args!("look at it in a browser: phase report {root}"));
     tell_of_earlier_borders(folder, sweep, console);
     answer.labels = Some(labels::Summary::new(folder, &labelled));
     Ok(!labelled.problems.is_empty() || !answer.problems.is_empty())

@@ -1,0 +1,4 @@
+"use strict";
+
+/** Everything of the page, a part for each file. The only global name. */
+const report = {};
