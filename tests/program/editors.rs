@@ -6,9 +6,9 @@ use serde_json::Value;
 use std::path::{Path, PathBuf};
 
 /// The commands that answer in JSON are tested below; these are all.
-const COMMANDS: [&str; 18] = [
-    "sweep", "classify", "plot", "run", "export", "view", "check", "cost", "compare", "fit",
-    "study", "verify", "jobs", "submit", "status", "merge", "new", "generate",
+const COMMANDS: [&str; 19] = [
+    "sweep", "classify", "plot", "report", "run", "export", "view", "check", "cost", "compare",
+    "fit", "study", "verify", "jobs", "submit", "status", "merge", "new", "generate",
 ];
 
 #[test]
@@ -322,6 +322,14 @@ fn a_sweep_answers_in_json() {
     let status = answer(&place, &["status", "results"], 0);
     assert_eq!(status["folders"][0]["done"], 6);
     assert_eq!(status["folders"][0]["running"], serde_json::json!([]));
+
+    let reported = answer(&place, &["report", "results/tiny"], 0);
+    let page = &reported["pages"][0];
+    let size = std::fs::metadata(place.path("results/tiny/report.html")).unwrap();
+    assert_eq!(
+        (&page["runs"], &page["bytes"]),
+        (&6.into(), &size.len().into())
+    );
 
     let more = "[sieves.settle]\ntolerance = 1e-30".to_owned();
     let edited = TinySweep {

@@ -33,6 +33,7 @@ mod published;
 mod recorder;
 mod records;
 mod refine;
+mod report;
 mod resume;
 mod rooms;
 mod rule;
