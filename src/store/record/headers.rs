@@ -5,6 +5,7 @@
 //! one piece (HDF5 File Format Specification Version 3.0, IV.A.1.b).
 
 use super::attributes::is_named;
+use std::cmp::Reverse;
 use std::collections::BTreeMap;
 use std::num::Wrapping;
 use std::ops::Range;
@@ -70,7 +71,8 @@ impl Header {
         self.messages.iter().any(|(kind, _)| *kind == LINK_INFO)
     }
 
-    /// Names of the objects of a group, and where their headers are.
+    /// Names of the objects of a group, and where their headers are, the last header first: it
+    /// says best how long the beginning of the file must be.
     fn links(&self, head: &[u8]) -> Result<Vec<(String, usize)>, Unread> {
         let links = self.messages.iter().filter(|(kind, _)| *kind == LINK);
         let link = |(_, content): &(u8, Range<usize>)| {
@@ -91,7 +93,9 @@ impl Header {
                 _ => Err(odd),
             }
         };
-        links.map(link).collect()
+        let mut links = links.map(link).collect::<Result<Vec<_>, _>>()?;
+        links.sort_by_key(|(_, address)| Reverse(*address));
+        Ok(links)
     }
 
     /// Puts an attribute in the place of one with the same name and length.

@@ -2,8 +2,9 @@
 //!
 //! ```text
 //! /             attributes: format, format_version, program_version, program_commit, identity,
-//!               seed, units, scene (JSON), scene_toml, outcome, work, cpu_seconds; of an
-//!               unstable run also guard, guard_step, guard_time, guard_sphere, guard_detail
+//!               seed, units, scene (JSON), scene_toml, outcome, work, cpu_seconds, Conventions,
+//!               title (if there is one); of an unstable run also guard, guard_step, guard_time,
+//!               guard_sphere, guard_detail
 //! /start        of a start that lists more than 1000 spheres, which the texts leave out then:
 //!               position, velocity, spin                    n x 3
 //!               radius                                      n
@@ -14,11 +15,13 @@
 //! /snapshots    time                                        snapshots
 //!               position, velocity, spin (if there is any)  snapshots x n x 3
 //! /trajectory   the same at every frame, if it was asked for
+//! /             sphere, component, bin_radius, rise_radius, rise_speed: their axes
 //! ```
 //!
-//! Every dataset has the attributes `unit` and `description`. The checksum comes after the end
-//! that the HDF5 file knows of, where other programs do not look. A record holds no time of
-//! day: the same run gives the same bytes, but for `cpu_seconds`.
+//! Every dataset has the attributes `unit` and `description`. The file is netCDF as well: datasets
+//! have dimension scales for axes, and `units` and `long_name` of the conventions CF. The checksum
+//! comes after the end that the HDF5 file knows of, where other programs do not look. A record
+//! holds no time of day: the same run gives the same bytes, but for `cpu_seconds`.
 
 mod attributes;
 mod cf;

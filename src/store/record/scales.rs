@@ -54,8 +54,8 @@ impl Scale {
 }
 
 impl Scales {
-    /// Gives a dataset the scales of these paths and lengths, one for each of its axes. It gets none
-    /// if one of them has another length, or too many datasets.
+    /// Gives a dataset the scales of these paths and lengths, one for each of its axes. It gets
+    /// none if one of them has another length, or too many datasets.
     pub(super) fn attach(
         &mut self,
         dataset: &mut DatasetBuilder,

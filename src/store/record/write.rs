@@ -133,14 +133,14 @@ fn start(part: &mut Part<'_>, spheres: &[StartSphere]) -> Result<(), String> {
     if !spheres.iter().all(finite) {
         return Err(NOT_FINITE.to_owned());
     }
-    type Part = fn(&StartSphere) -> &[f64; 3];
-    let parts: [(StoredQuantity<'_>, Part); 3] = [
+    type Vector = fn(&StartSphere) -> &[f64; 3];
+    let parts: [(StoredQuantity<'_>, Vector); 3] = [
         (POSITION, |it| &it.position),
         (VELOCITY, |it| &it.velocity),
         (SPIN, |it| &it.spin),
     ];
-    for (quantity, vectors) in parts {
-        let values: Vec<f64> = spheres.iter().flat_map(vectors).copied().collect();
+    for (quantity, vector) in parts {
+        let values: Vec<f64> = spheres.iter().flat_map(vector).copied().collect();
         let axes = [(Axis::Sphere, spheres.len()), (Axis::Component, 3)];
         part.dataset(quantity, &axes, &values);
     }
@@ -216,28 +216,28 @@ fn check_observations(observations: &Observations) -> Result<(), String> {
 }
 
 fn snapshots(part: &mut Part<'_>, snapshots: &[Snapshot]) -> Result<(), String> {
-    type Values = fn(&Snapshot) -> &Array2<f64>;
-    let parts: [(StoredQuantity<'_>, Values); 3] = [
+    type Vectors = fn(&Snapshot) -> &Array2<f64>;
+    let parts: [(StoredQuantity<'_>, Vectors); 3] = [
         (POSITION, |at| &at.position),
         (VELOCITY, |at| &at.velocity),
         (SPIN, |at| &at.spin),
     ];
     let count = snapshots[0].position.nrows();
     let spins = snapshots[0].spin.nrows();
-    for (quantity, of) in parts {
+    for (quantity, vectors) in parts {
         let rows = if quantity.0 == "spin" { spins } else { count };
-        if let Some(odd) = snapshots.iter().find(|at| of(at).dim() != (rows, 3)) {
+        if let Some(odd) = snapshots.iter().find(|at| vectors(at).dim() != (rows, 3)) {
             let name = quantity.0;
             return Err(format!(
                 "`{name}` at t = {} s has shape {:?}, but ({rows}, 3) is expected",
                 odd.time,
-                of(odd).dim()
+                vectors(odd).dim()
             ));
         }
         if quantity.0 == "spin" && spins == 0 {
             continue;
         }
-        let values: Vec<f64> = snapshots.iter().flat_map(of).copied().collect();
+        let values: Vec<f64> = snapshots.iter().flat_map(vectors).copied().collect();
         let states = (Axis::Time, snapshots.len());
         let axes = [states, (Axis::Sphere, rows), (Axis::Component, 3)];
         part.dataset(quantity, &axes, &values);
