@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Reads a results folder with pandas and h5py, and prints what is in it.
+"""Reads a results folder with pandas, h5py and xarray, and prints what is in it.
 
     python3 docs/read_records.py results/quick
 """
@@ -11,6 +11,7 @@ from pathlib import Path
 import h5py
 import numpy
 import pandas
+import xarray
 
 
 def frames_of(record):
@@ -26,6 +27,17 @@ def chosen(labels):
     if holes is None or holes.isna().all():
         return labels.iloc[0]
     return labels.loc[holes.idxmax()]
+
+
+def print_surface(path):
+    """The mean surface of a run in its last second over the distance from the axis."""
+    with xarray.open_datatree(path) as run:
+        profile = run["observations/profile"]
+        if profile.size == 0:
+            return
+        last = profile.sel(time=slice(float(profile.time[-1]) - 1.0, None)).mean("time")
+        print(f"the same of: {profile.attrs['long_name']} ({profile.attrs['units']})")
+        print(last.to_series().to_string())
 
 
 def main(folder):
@@ -64,6 +76,7 @@ def main(folder):
             distance = numpy.hypot(position[:, 0], position[:, 1])
             print(f", {distance.min():.4f} to {distance.max():.4f} m from the axis", end="")
         print()
+    print_surface(path)
 
 
 if __name__ == "__main__":

@@ -2,8 +2,9 @@
 //!
 //! ```text
 //! /             attributes: format, format_version, program_version, program_commit, identity,
-//!               seed, units, scene (JSON), scene_toml, outcome, work, cpu_seconds; of an
-//!               unstable run also guard, guard_step, guard_time, guard_sphere, guard_detail
+//!               seed, units, scene (JSON), scene_toml, outcome, work, cpu_seconds, Conventions,
+//!               title (if there is one); of an unstable run also guard, guard_step, guard_time,
+//!               guard_sphere, guard_detail
 //! /start        of a start that lists more than 1000 spheres, which the texts leave out then:
 //!               position, velocity, spin                    n x 3
 //!               radius                                      n
@@ -14,13 +15,20 @@
 //! /snapshots    time                                        snapshots
 //!               position, velocity, spin (if there is any)  snapshots x n x 3
 //! /trajectory   the same at every frame, if it was asked for
+//! /             sphere, component, bin_radius, rise_radius, rise_speed: their axes
 //! ```
 //!
-//! Every dataset has the attributes `unit` and `description`. The checksum comes after the end
-//! that the HDF5 file knows of, where other programs do not look. A record holds no time of
-//! day: the same run gives the same bytes, but for `cpu_seconds`.
+//! Every dataset has the attributes `unit` and `description`. The file is netCDF as well: datasets
+//! have dimension scales for axes, and `units` and `long_name` of the conventions CF. The checksum
+//! comes after the end that the HDF5 file knows of, where other programs do not look. A record
+//! holds no time of day: the same run gives the same bytes, but for `cpu_seconds`.
 
+mod attributes;
+mod cf;
+mod headers;
+mod part;
 mod read;
+mod scales;
 mod seal;
 mod write;
 
@@ -31,7 +39,6 @@ use super::atomic::write_atomic_with;
 use super::hashed::Hashed;
 use crate::record::{Outcome, Program, RunRecord};
 use crate::scene::{Output, Scene};
-use hdf5_pure::FileBuilder;
 use std::io;
 use std::path::Path;
 
@@ -81,16 +88,16 @@ pub fn write_record_and_drop_states(record: &mut RunRecord, path: &Path) -> Resu
     write(content, path)
 }
 
-fn content(record: &RunRecord, path: &Path) -> Result<FileBuilder, StoreError> {
+fn content(record: &RunRecord, path: &Path) -> Result<write::Content, StoreError> {
     let provenance = Some((&record.program, record.cpu_seconds));
     write::build(record, provenance).map_err(|reason| StoreError::content(path, reason))
 }
 
-fn write(content: FileBuilder, path: &Path) -> Result<(), StoreError> {
+fn write(content: write::Content, path: &Path) -> Result<(), StoreError> {
     let mut reason = None;
     let result = write_atomic_with(path, |file| {
         let mut hashed = Hashed::new(file);
-        let written = content.finish_to(&mut hashed).map_err(|error| match error {
+        let written = content.write_to(&mut hashed).map_err(|error| match error {
             hdf5_pure::Error::Io(error) => error,
             error => io::Error::other(reason.insert(error.to_string()).clone()),
         });
@@ -129,7 +136,7 @@ pub fn content_digest(record: &RunRecord) -> Result<String, String> {
     let mut hasher = blake3::Hasher::new();
     let content = write::build(record, None)?;
     content
-        .finish_to(&mut hasher)
+        .write_to(&mut hasher)
         .map_err(|error| error.to_string())?;
     Ok(hasher.finalize().to_hex().to_string())
 }

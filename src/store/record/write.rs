@@ -1,32 +1,39 @@
 //! From a record to the bytes of an HDF5 file.
 
-use super::{FORMAT, FORMAT_VERSION, MOST_IN_TEXT};
+use super::part::{Axis, Part, StoredQuantity, common_axis, short_text};
+use super::scales::{Linked, Scales};
+use super::{FORMAT, FORMAT_VERSION, MOST_IN_TEXT, cf};
 use crate::observe::{Observations, Snapshot};
 use crate::record::{Outcome, Program, RunRecord};
 use crate::scene::{Scene, StartSphere};
-use hdf5_pure::{AttrValue, FileBuilder, GroupBuilder, H5Element};
+use hdf5_pure::{AttrValue, Error, FileBuilder};
 use ndarray::Array2;
+use std::io::Write;
 
-/// Effort of the compression, 1 to 9. Most of what is measured is noise in its last digits: on a
-/// record of 5001 frames (0.96 MB) level 1 saves a quarter in 6 ms, level 6 as much in 20 ms.
-const DEFLATE_LEVEL: u32 = 1;
-/// Datasets below this size (bytes) are stored as they are.
-const COMPRESS_FROM: usize = 4096;
-/// Largest chunk of a dataset (bytes): what a reader must unpack to see one frame, or a part of a
-/// large one.
-const CHUNK: usize = 1 << 20;
 /// Why a scene has no text that gives it back.
 const NOT_FINITE: &str = "its scene holds a number that is not finite; check the scene file";
-/// Most entries of a chunk along an axis: HDF5 2.0 refuses the extents of larger ones as they are
-/// written here, in four bytes where it would take three.
-const WIDEST: usize = u16::MAX as usize;
+
+/// The HDF5 file of a record, still to be written, as it may be most of what fits into memory.
+pub(super) struct Content {
+    file: FileBuilder,
+    scales: Scales,
+}
+
+impl Content {
+    /// Writes the file.
+    pub(super) fn write_to(self, file: &mut impl Write) -> Result<(), Error> {
+        let mut linked = Linked::new(file, self.scales);
+        self.file.finish_to(&mut linked)?;
+        linked.finish().map_err(Error::Io)
+    }
+}
 
 /// What the HDF5 file of a record holds, with the program and its processor time if they are
-/// wanted. It is still to be written, as it may be most of what fits into memory.
+/// wanted.
 pub(super) fn build(
     record: &RunRecord,
     provenance: Option<(&Program, f64)>,
-) -> Result<FileBuilder, String> {
+) -> Result<Content, String> {
     check_observations(&record.observations)?;
     let mut file = FileBuilder::new();
     if let Some((program, cpu_seconds)) = provenance {
@@ -36,39 +43,34 @@ pub(super) fn build(
     }
     let long_start = long_start(&record.scene);
     header(&mut file, record, long_start.as_ref().map(|(rest, _)| rest))?;
+    let mut scales = Scales::default();
     if let Some((_, spheres)) = long_start {
-        let mut group = file.create_group("start");
-        start(&mut group, spheres)?;
-        file.add_group(group.finish());
+        Part::add(&mut file, "start", &mut scales, |part| start(part, spheres))?;
     }
-    let mut group = file.create_group("spheres");
-    spheres(&mut group, record);
-    file.add_group(group.finish());
-    let mut group = file.create_group("observations");
-    let unit = record.scene.unit_of_time();
-    observations(&mut group, &record.observations, unit);
-    file.add_group(group.finish());
+    Part::add(&mut file, "spheres", &mut scales, |part| {
+        spheres(part, record);
+        Ok(())
+    })?;
+    Part::add(&mut file, "observations", &mut scales, |part| {
+        observations(part, &record.observations, record.scene.unit_of_time());
+        Ok(())
+    })?;
     for (name, states) in [
         ("snapshots", &record.snapshots),
         ("trajectory", &record.trajectory),
     ] {
         if !states.is_empty() {
-            let mut group = file.create_group(name);
-            snapshots(&mut group, states).map_err(|reason| format!("{name}: {reason}"))?;
-            file.add_group(group.finish());
+            Part::add(&mut file, name, &mut scales, |part| {
+                snapshots(part, states).map_err(|reason| format!("{name}: {reason}"))
+            })?;
         }
     }
-    Ok(file)
+    common_axes(&mut file, record, &mut scales);
+    Ok(Content { file, scales })
 }
 
 fn text(value: &str) -> AttrValue {
     AttrValue::VarLenString(value.to_owned())
-}
-
-/// A text of a fixed length. One of a variable length takes 4 kB of the file, which for two texts
-/// of each dataset is more than the record of a short run holds.
-fn short_text(value: &str) -> AttrValue {
-    AttrValue::String(value.to_owned())
 }
 
 /// The scene without the spheres that its start lists, and these, if they are too many for a text.
@@ -87,6 +89,10 @@ fn header(file: &mut FileBuilder, record: &RunRecord, rest: Option<&Scene>) -> R
         return Err(NOT_FINITE.to_owned());
     }
     file.set_attr("format", text(FORMAT));
+    file.set_attr("Conventions", short_text(cf::CONVENTIONS));
+    if let Some(title) = &scene.title {
+        file.set_attr("title", short_text(title));
+    }
     file.set_attr("format_version", AttrValue::U64(FORMAT_VERSION));
     file.set_attr("identity", text(&scene.identity()));
     file.set_attr("seed", AttrValue::U64(scene.seed));
@@ -118,7 +124,7 @@ fn header(file: &mut FileBuilder, record: &RunRecord, rest: Option<&Scene>) -> R
     Ok(())
 }
 
-fn start(group: &mut GroupBuilder, spheres: &[StartSphere]) -> Result<(), String> {
+fn start(part: &mut Part<'_>, spheres: &[StartSphere]) -> Result<(), String> {
     let finite = |sphere: &StartSphere| {
         let vectors = [sphere.position, sphere.velocity, sphere.spin];
         let mut numbers = vectors.as_flattened().iter().chain(&sphere.radius);
@@ -127,82 +133,43 @@ fn start(group: &mut GroupBuilder, spheres: &[StartSphere]) -> Result<(), String
     if !spheres.iter().all(finite) {
         return Err(NOT_FINITE.to_owned());
     }
-    type Part = fn(&StartSphere) -> &[f64; 3];
-    let parts: [(StoredQuantity<'_>, Part); 3] = [
+    type Vector = fn(&StartSphere) -> &[f64; 3];
+    let parts: [(StoredQuantity<'_>, Vector); 3] = [
         (POSITION, |it| &it.position),
         (VELOCITY, |it| &it.velocity),
         (SPIN, |it| &it.spin),
     ];
-    for (quantity, part) in parts {
-        let values: Vec<f64> = spheres.iter().flat_map(part).copied().collect();
-        dataset(group, quantity, &[spheres.len(), 3], &values);
+    for (quantity, vector) in parts {
+        let values: Vec<f64> = spheres.iter().flat_map(vector).copied().collect();
+        let axes = [(Axis::Sphere, spheres.len()), (Axis::Component, 3)];
+        part.dataset(quantity, &axes, &values);
     }
     let radius = |it: &StartSphere| it.radius.unwrap_or(f64::NAN);
     let values: Vec<f64> = spheres.iter().map(radius).collect();
     let description = "Radius of every sphere; not a number for the scene's radius";
     let quantity = StoredQuantity("radius", "m", description);
-    dataset(group, quantity, &[spheres.len()], &values);
+    part.dataset(quantity, &[(Axis::Sphere, spheres.len())], &values);
     Ok(())
 }
-
-/// Name, unit and description of a dataset.
-struct StoredQuantity<'a>(&'a str, &'a str, &'a str);
 
 const POSITION: StoredQuantity<'_> = StoredQuantity("position", "m", "Centres x, y, z");
 const VELOCITY: StoredQuantity<'_> = StoredQuantity("velocity", "m/s", "Velocities x, y, z");
 const SPIN: StoredQuantity<'_> = StoredQuantity("spin", "rad/s", "Spins x, y, z");
 
-fn dataset<T: H5Element>(
-    group: &mut GroupBuilder,
-    StoredQuantity(name, unit, description): StoredQuantity<'_>,
-    shape: &[usize],
-    values: &[T],
-) {
-    let shape: Vec<u64> = shape.iter().map(|&extent| extent as u64).collect();
-    let dataset = group.create_dataset(name);
-    dataset
-        .with_data(values)
-        .with_shape(&shape)
-        .set_attr("unit", short_text(unit))
-        .set_attr("description", short_text(description));
-    let size = size_of_val(values);
-    if size >= COMPRESS_FROM {
-        dataset
-            .with_chunks(&chunk(&shape, size_of::<T>()))
-            .with_shuffle()
-            .with_deflate(DEFLATE_LEVEL);
-    }
-}
-
-/// Extents of the chunks of a dataset with entries of that size (bytes): whole rows as far as they
-/// fit.
-fn chunk(shape: &[u64], size: usize) -> Vec<u64> {
-    let mut chunk = shape.to_vec();
-    let mut room = CHUNK / size;
-    for extent in chunk.iter_mut().rev() {
-        let entries = (*extent as usize).min(WIDEST).min(room).max(1);
-        room /= entries;
-        *extent = entries as u64;
-    }
-    chunk
-}
-
-fn spheres(group: &mut GroupBuilder, record: &RunRecord) {
-    let count = [record.radius.len()];
+fn spheres(part: &mut Part<'_>, record: &RunRecord) {
+    let axes = [(Axis::Sphere, record.radius.len())];
     let quantity = StoredQuantity("radius", "m", "Radius of every sphere");
-    dataset(group, quantity, &count, &record.radius);
-    let count = [record.mass.len()];
+    part.dataset(quantity, &axes, &record.radius);
+    let axes = [(Axis::Sphere, record.mass.len())];
     let quantity = StoredQuantity("mass", "kg", "Mass of every sphere");
-    dataset(group, quantity, &count, &record.mass);
+    part.dataset(quantity, &axes, &record.mass);
 }
 
-fn observations(group: &mut GroupBuilder, observations: &Observations, unit_of_time: &str) {
-    let frames = [observations.frames()];
-    let quantity = StoredQuantity("time", unit_of_time, "Time of each frame");
-    dataset(group, quantity, &frames, &observations.time);
+fn observations(part: &mut Part<'_>, observations: &Observations, unit_of_time: &str) {
+    let frames = (Axis::Time, observations.frames());
     for series in observations.scalars() {
         let quantity = StoredQuantity(series.name, series.unit, series.description);
-        dataset(group, quantity, &frames, series.values);
+        part.dataset(quantity, &[frames], series.values);
     }
     let quantity = StoredQuantity(
         "profile",
@@ -212,7 +179,8 @@ fn observations(group: &mut GroupBuilder, observations: &Observations, unit_of_t
     );
     let profile = observations.profile.as_standard_layout();
     let values = profile.as_slice().expect("standard layout");
-    dataset(group, quantity, profile.shape(), values);
+    let bins = (Axis::BinRadius, profile.ncols());
+    part.dataset(quantity, &[frames, bins], values);
     let quantity = StoredQuantity(
         "rising",
         "1",
@@ -221,7 +189,10 @@ fn observations(group: &mut GroupBuilder, observations: &Observations, unit_of_t
     );
     let rising = observations.rising.as_standard_layout();
     let values = rising.as_slice().expect("standard layout");
-    dataset(group, quantity, rising.shape(), values);
+    let (_, radii, speeds) = rising.dim();
+    let axes = [frames, (Axis::RiseRadius, radii), (Axis::RiseSpeed, speeds)];
+    part.dataset(quantity, &axes, values);
+    part.time(unit_of_time, "Time of each frame", &observations.time);
 }
 
 fn check_observations(observations: &Observations) -> Result<(), String> {
@@ -244,61 +215,51 @@ fn check_observations(observations: &Observations) -> Result<(), String> {
     Ok(())
 }
 
-fn snapshots(group: &mut GroupBuilder, snapshots: &[Snapshot]) -> Result<(), String> {
-    let time: Vec<f64> = snapshots.iter().map(|snapshot| snapshot.time).collect();
-    let quantity = StoredQuantity("time", "s", "Time of each snapshot");
-    dataset(group, quantity, &[snapshots.len()], &time);
-
-    type Part = fn(&Snapshot) -> &Array2<f64>;
-    let parts: [(StoredQuantity<'_>, Part); 3] = [
+fn snapshots(part: &mut Part<'_>, snapshots: &[Snapshot]) -> Result<(), String> {
+    type Vectors = fn(&Snapshot) -> &Array2<f64>;
+    let parts: [(StoredQuantity<'_>, Vectors); 3] = [
         (POSITION, |at| &at.position),
         (VELOCITY, |at| &at.velocity),
         (SPIN, |at| &at.spin),
     ];
     let count = snapshots[0].position.nrows();
     let spins = snapshots[0].spin.nrows();
-    for (quantity, part) in parts {
+    for (quantity, vectors) in parts {
         let rows = if quantity.0 == "spin" { spins } else { count };
-        if let Some(odd) = snapshots.iter().find(|at| part(at).dim() != (rows, 3)) {
+        if let Some(odd) = snapshots.iter().find(|at| vectors(at).dim() != (rows, 3)) {
             let name = quantity.0;
             return Err(format!(
                 "`{name}` at t = {} s has shape {:?}, but ({rows}, 3) is expected",
                 odd.time,
-                part(odd).dim()
+                vectors(odd).dim()
             ));
         }
         if quantity.0 == "spin" && spins == 0 {
             continue;
         }
-        let values: Vec<f64> = snapshots.iter().flat_map(part).copied().collect();
-        dataset(group, quantity, &[snapshots.len(), rows, 3], &values);
+        let values: Vec<f64> = snapshots.iter().flat_map(vectors).copied().collect();
+        let states = (Axis::Time, snapshots.len());
+        let axes = [states, (Axis::Sphere, rows), (Axis::Component, 3)];
+        part.dataset(quantity, &axes, &values);
     }
+    let time: Vec<f64> = snapshots.iter().map(|snapshot| snapshot.time).collect();
+    part.time("s", "Time of each snapshot", &time);
     Ok(())
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use proptest::prelude::*;
-
-    #[test]
-    fn a_chunk_is_some_frames_or_a_part_of_one() {
-        assert_eq!(chunk(&[5001, 256, 3], 8), [170, 256, 3]);
-        assert_eq!(chunk(&[2, 40_000, 3], 8), [1, 40_000, 3]);
-        assert_eq!(chunk(&[2, 1_000_000, 3], 8), [1, 43_690, 3]);
-        assert_eq!(chunk(&[1_000_000], 8), [65_535]);
-    }
-
-    proptest! {
-        #[test]
-        fn chunks_are_neither_too_large_nor_too_wide(
-            shape in prop::collection::vec(1_u64..3_000_000, 1..4),
-        ) {
-            let chunk = chunk(&shape, 8);
-            prop_assert!(chunk.iter().product::<u64>() * 8 <= CHUNK as u64);
-            for (extent, all) in chunk.iter().zip(&shape) {
-                prop_assert!((1..=WIDEST as u64).contains(extent) && extent <= all);
-            }
-        }
+/// The axes that groups share.
+fn common_axes(file: &mut FileBuilder, record: &RunRecord, scales: &mut Scales) {
+    let output = &record.scene.output;
+    let radius = record.scene.tank.as_ref().and_then(|tank| tank.radius);
+    let bins = record.observations.profile.ncols();
+    let centre = |bin: usize, radius: f64| (bin as f64 + 0.5) * radius / bins as f64;
+    for axis in Axis::COMMON {
+        let values = match axis {
+            Axis::BinRadius => radius.map(|it| (0..bins).map(|bin| centre(bin, it)).collect()),
+            Axis::RiseRadius => Some(output.rise_radii.clone()),
+            Axis::RiseSpeed => Some(output.rise_speeds.clone()),
+            Axis::Time | Axis::Sphere | Axis::Component => None,
+        };
+        common_axis(file, axis, values, scales);
     }
 }

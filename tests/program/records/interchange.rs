@@ -108,6 +108,21 @@ fn datasets(record: &RunRecord) -> Value {
         .flat_map(|value| value.to_le_bytes())
         .collect();
     add("observations/rising".into(), "<u2", rising.shape(), bytes);
+    let output = &record.scene.output;
+    for (name, values) in [
+        ("rise_radius", &output.rise_radii),
+        ("rise_speed", &output.rise_speeds),
+    ] {
+        add(name.into(), "<f8", &[values.len()], f64s(values));
+    }
+    // Axes without values.
+    for (name, length) in [
+        ("sphere", count),
+        ("component", 3),
+        ("bin_radius", profile.ncols()),
+    ] {
+        add(name.into(), "|u1", &[length], vec![0; length]);
+    }
 
     let start = long_start(&record.scene.start);
     if !start.is_empty() {
