@@ -1,7 +1,7 @@
 /** What a map shows: which quantity, over which axes, in which slice. */
 report.controls = (() => {
   const { create, select } = report.dom;
-  const { plain, labelled, nodes } = report.markup;
+  const { nodes } = report.markup;
 
   function field(words, control) {
     return create("label", { class: "field" }, create("span", {}, words), control);
@@ -10,7 +10,7 @@ report.controls = (() => {
   /** Groups of maps: the label, margins and evidence, measures. */
   function mapSelect(model, store) {
     const option = (measure) =>
-      create("option", { value: measure.name }, plain(labelled(measure.quantity, measure.unit)));
+      create("option", { value: measure.name }, report.data.measureWords(measure));
     const measures = [...model.measures.values()];
     const group = (words, found) =>
       found.length > 0 ? [create("optgroup", { label: words }, found.map(option))] : [];

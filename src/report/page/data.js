@@ -23,6 +23,18 @@ report.data = (() => {
     return report.markup.labelled(quantity ?? axis.name, unit);
   }
 
+  /** A measure in a list: quantity, unit and its column of `labels.csv`. */
+  function measureWords({ quantity, unit, name }) {
+    const words = report.markup.plain(report.markup.labelled(quantity, unit));
+    return name ? `${words} · ${name}` : words;
+  }
+
+  /** The same for a table. */
+  function measureNodes({ quantity, unit, name }) {
+    const words = report.markup.nodes(report.markup.labelled(quantity, unit));
+    return [...words, " ", report.dom.create("code", {}, name)];
+  }
+
   /** "r = 0.003 m, Ω = 6 rad/s" as markup. */
   function placeWords(model, place) {
     return indices(model, place)
@@ -117,7 +129,7 @@ report.data = (() => {
     return { label: best[0], agreement: best[1] / runs.length };
   }
 
-  /** The mean of a measure over the runs that have it. */
+  /** The mean of a measure, or other values of runs, over the runs that have it. */
   function mean(measure, runs) {
     const values = runs.map((run) => measure.values[run]).filter((value) => Number.isFinite(value));
     return values.length === 0
@@ -135,6 +147,8 @@ report.data = (() => {
     written,
     shown,
     label,
+    measureWords,
+    measureNodes,
     placeWords,
     placeOf,
     indices,

@@ -1,16 +1,24 @@
 /** The pinned point: its runs, why they have their labels, columns over time, spheres, scene, command. */
 report.details = (() => {
   const { create, copyButton } = report.dom;
-  const { placeWords, labelName } = report.data;
-  const { nodes, labelled, plain } = report.markup;
+  const { placeWords } = report.data;
+  const { nodes } = report.markup;
   const { format, counted } = report.numbers;
 
   function block(title, ...children) {
     return create("section", { class: "block" }, create("h4", {}, title), ...children);
   }
 
+  /** The label of a run as stored, and, where thresholds are moved, the one they give. */
+  function labelNodes(model, run, labels) {
+    const [stored, moved] = [model.stored, labels].map((it) => report.legend.chip(model, it[run]));
+    return labels === model.stored
+      ? stored
+      : create("span", {}, "stored: ", stored, ", by the moved thresholds: ", moved);
+  }
+
   /** The seeds of the point with their labels; one of them is looked at. */
-  function seeds(model, runs, chosen, put) {
+  function seeds(model, runs, chosen, put, labels) {
     const steady = model.runs.steady;
     const entry = (run, index) =>
       create(
@@ -22,7 +30,7 @@ report.details = (() => {
           on: { click: () => put(index) },
         },
         `${nameOf(model, run)} `,
-        report.legend.chip(model, model.stored[run]),
+        labelNodes(model, run, labels),
         steady?.[run] === 0 ? create("span", { class: "warning" }, " not steady") : "",
       );
     return create(
@@ -42,7 +50,7 @@ report.details = (() => {
         create(
           "th",
           { scope: "row", title: measure.description ?? null },
-          nodes(labelled(measure.quantity, measure.unit)),
+          report.data.measureNodes(measure),
         ),
         runs.map((run) => create("td", {}, format(measure.values[run]))),
       );
@@ -110,7 +118,8 @@ report.details = (() => {
       const drawn = runs
         .map((run, index) => ({
           name: nameOf(model, run),
-          color: lineColor(index),
+          color: runs.length > 1 ? lineColor(index) : labelColor(model, run),
+          settled: settledOf(model, run),
           ...found[index],
         }))
         .filter((run) => run.time);
@@ -142,6 +151,18 @@ report.details = (() => {
 
   function lineColor(index) {
     return index === 0 ? "var(--line)" : report.colors.distinct(index);
+  }
+
+  /** The colour of a run's label for lines: with some ink, so that any is seen on any paper. */
+  function labelColor(model, run) {
+    const color = report.colors.safe(model.labels[model.stored[run]].color);
+    return `color-mix(in srgb, ${color} 55%, var(--ink))`;
+  }
+
+  /** From when on a run is settled (s); NaN if that is not known. */
+  function settledOf(model, run) {
+    const { unit, values } = model.measures.get("settle_time") ?? {};
+    return unit === "s" ? (values[run] ?? NaN) : NaN;
   }
 
   function spheresBlock(model, run) {
@@ -197,15 +218,7 @@ report.details = (() => {
       .filter((line) => line.state !== "removed")
       .map((line) => line.text)
       .join("\n");
-    const marked = lines.filter((line) => line.state !== "same").length;
-    const rows = lines.map((line) =>
-      create(
-        "span",
-        { class: `scene-line ${line.state}` },
-        line.state === "same" ? line.text : create("mark", {}, line.text),
-        "\n",
-      ),
-    );
+    const marked = lines.filter((line) => line.key).length;
     return block(
       "Scene file",
       create(
@@ -215,7 +228,8 @@ report.details = (() => {
         " ",
         copyButton("Copy scene", () => `${kept}\n`),
       ),
-      create("pre", { class: "scene", tabindex: 0, "aria-label": "Scene file" }, rows),
+      report.scene.differing(lines),
+      report.scene.box(lines),
     );
   }
 
@@ -230,7 +244,7 @@ report.details = (() => {
         "div",
         { class: "command" },
         create("code", {}, command),
-        copyButton("Copy", () => command),
+        copyButton("Copy", () => command, "the command of this run"),
       ),
       model.runs.id?.[run]
         ? create("p", { class: "muted" }, "Record ", create("code", {}, String(model.runs.id[run])))
@@ -256,10 +270,14 @@ report.details = (() => {
 
   function head(model, store) {
     const { pin } = store.state;
+    const unpin = () => {
+      store.set({ pin: null });
+      model.focusTab();
+    };
     return create(
       "header",
       { class: "point-head" },
-      create("h3", {}, nodes(placeWords(model, pin))),
+      create("h3", { tabindex: -1 }, nodes(placeWords(model, pin))),
       create(
         "div",
         { class: "buttons" },
@@ -267,11 +285,7 @@ report.details = (() => {
           report.main.address.write();
           return location.href;
         }),
-        create(
-          "button",
-          { type: "button", class: "button", on: { click: () => store.set({ pin: null }) } },
-          "Unpin",
-        ),
+        create("button", { type: "button", class: "button", on: { click: unpin } }, "Unpin"),
       ),
     );
   }
@@ -279,26 +293,39 @@ report.details = (() => {
   /** The panel of the pinned point. */
   function follow(model, store) {
     const element = create("div", { class: "details" });
-    const why = create("div", {});
+    const [chips, why] = [create("div", {}), create("div", {})];
     let charts = null;
-    let explained = null;
+    let shown = null;
+    const choose = (index) => {
+      store.set({ run: index });
+      chips.querySelector("[aria-pressed=true]").focus();
+    };
     const explain = () => {
-      const isMade = explained !== null && model.rules;
+      if (shown === null) {
+        return;
+      }
+      const { runs, index } = shown;
+      const { rules, measures, stored } = model;
+      const { thresholds } = store.state;
+      const isMoved = rules && report.rules.moved(rules, thresholds).length > 0;
+      const labels = isMoved ? report.rules.relabel(rules, measures, stored, thresholds) : stored;
+      chips.replaceChildren(seeds(model, runs, index, choose, labels));
+      why.hidden = !rules;
       why.replaceChildren(
-        ...(isMade ? [report.why.explanation(model, explained, store.state.thresholds)] : []),
+        ...(rules ? [report.why.explanation(model, runs[index], thresholds)] : []),
       );
-      why.hidden = !isMade;
     };
     const render = () => {
-      const { pin, run: index } = store.state;
+      const { pin } = store.state;
       charts = null;
-      explained = null;
+      shown = null;
       if (pin === null) {
         element.replaceChildren(...report.overview.hint(model).flat());
         return;
       }
       const runs = model.points.get(pin) ?? [];
-      const run = runs[Math.min(index, runs.length - 1)];
+      const index = Math.min(store.state.run, runs.length - 1);
+      const run = runs[index];
       if (run === undefined) {
         element.replaceChildren(
           head(model, store),
@@ -309,15 +336,13 @@ report.details = (() => {
       }
       const series = seriesBlock(model, runs, store);
       charts = series.render ?? null;
-      explained = run;
+      shown = { runs, index };
       explain();
       element.replaceChildren(
         ...[
           head(model, store),
           failedBlock(model, pin),
-          seeds(model, runs, Math.min(index, runs.length - 1), (chosen) =>
-            store.set({ run: chosen }),
-          ),
+          chips,
           why,
           series.element ?? series,
           spheresBlock(model, run),

@@ -54,12 +54,17 @@ report.dom = (() => {
     update();
   }
 
-  /** A button that copies what `text` returns, and says so. */
-  function copyButton(words, text) {
-    const button = create("button", { type: "button", class: "button copy" }, words);
+  /** A button that copies what `text` returns, and says so; `what` tells those who only hear it. */
+  function copyButton(words, text, what = "") {
+    const button = create(
+      "button",
+      { type: "button", class: "button copy", "aria-label": what ? `${words} ${what}` : null },
+      words,
+    );
     button.addEventListener("click", async () => {
       const done = await copy(text());
       button.textContent = done ? "Copied" : "Copying failed";
+      report.tooltip.say(button.textContent);
       setTimeout(() => {
         button.textContent = words;
       }, 1500);

@@ -60,13 +60,7 @@ report.download = (() => {
             "dl",
             { class: "definitions" },
             found.map((measure) => [
-              create(
-                "dt",
-                {},
-                report.markup.nodes(report.markup.labelled(measure.quantity, measure.unit)),
-                " ",
-                create("code", {}, measure.name),
-              ),
+              create("dt", {}, report.data.measureNodes(measure)),
               create("dd", {}, measure.description.trim()),
             ]),
           ),
@@ -106,7 +100,7 @@ report.download = (() => {
           "div",
           { class: "command" },
           create("code", {}, line),
-          copyButton("Copy", () => line),
+          copyButton("Copy", () => line, `the command: ${purpose}`),
         ),
       ),
     );

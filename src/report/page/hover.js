@@ -14,8 +14,7 @@ report.hover = (() => {
   }
 
   /** The evidence of a point: the mean over its runs, and the range if they differ. */
-  function evidence(model, runs) {
-    const measures = [...model.measures.values()].filter((measure) => measure.is_evidence);
+  function evidence(measures, runs) {
     const rows = measures
       .map((measure) => [measure, mean(measure, runs)])
       .filter(([, value]) => Number.isFinite(value));
@@ -33,6 +32,24 @@ report.hover = (() => {
         [create("span", { class: sign }, report.numbers.withUnit(value, measure.unit, 3)), range],
       ];
     });
+  }
+
+  /** Evidence as stored, and what thresholds, where they are moved, read in its place. */
+  function evidenceRows(model, runs, isMoved, thresholds) {
+    const found = isMoved ? report.rules.replaced(model.rules, model.measures, thresholds) : [];
+    const replaced = found.map((it) => ({
+      quantity: it.name,
+      ...model.measures.get(it.name),
+      ...it,
+    }));
+    const kept = [...model.measures.values()].filter(
+      (measure) => measure.is_evidence && !found.some((it) => it.name === measure.name),
+    );
+    return [
+      report.tooltip.rows(evidence(replaced, runs)),
+      isMoved ? create("p", { class: "muted" }, "as stored:") : "",
+      report.tooltip.rows(evidence(kept, runs)),
+    ];
   }
 
   function heading(model, cell, labels) {
@@ -59,24 +76,28 @@ report.hover = (() => {
     );
   }
 
-  /** What a cell tells. */
-  function tell(model, cell, labels, grid, stored) {
+  /** What a cell of a map tells. */
+  function tell(map, cell, labels) {
+    const { model, store } = map;
+    const { thresholds } = store.state;
+    const isMoved =
+      labels !== model.stored && report.rules.moved(model.rules, thresholds).length > 0;
     const runs = cell.runs;
     const seeds =
       runs === null
         ? null
         : runs.map((run) => model.runs.seed?.[run]).filter((seed) => seed !== undefined);
-    const measure = grid.measure;
+    const { measure } = map.grid;
     return [
       create("p", { class: "tooltip-place" }, nodes(placeWords(model, cell.place))),
       create("p", { class: "tooltip-label" }, heading(model, cell, labels)),
-      stored && runs !== null && stored !== labels ? wasNode(model, runs, stored, labels) : "",
+      isMoved && runs !== null ? wasNode(model, runs, labels) : "",
       measure && runs !== null
         ? report.tooltip.rows([
             [nodes(measure.quantity), report.numbers.withUnit(cell.value, measure.unit)],
           ])
         : "",
-      runs === null ? "" : report.tooltip.rows(evidence(model, runs)),
+      ...(runs === null ? [] : evidenceRows(model, runs, isMoved, thresholds)),
       seeds && seeds.length > 0
         ? create(
             "p",
@@ -90,8 +111,8 @@ report.hover = (() => {
     ];
   }
 
-  function wasNode(model, runs, stored, labels) {
-    const [was, is] = [majority(runs, stored).label, majority(runs, labels).label];
+  function wasNode(model, runs, labels) {
+    const [was, is] = [majority(runs, model.stored).label, majority(runs, labels).label];
     return was === is
       ? ""
       : create("p", { class: "tooltip-label" }, "stored: ", report.legend.chip(model, was));
@@ -125,10 +146,7 @@ report.hover = (() => {
       if (cell === null || start?.isDrag) {
         report.tooltip.hide();
       } else if (event.pointerType !== "touch") {
-        report.tooltip.show(tell(model, cell, labels(), map.grid, model.stored), [
-          event.clientX,
-          event.clientY,
-        ]);
+        report.tooltip.show(tell(map, cell, labels()), [event.clientX, event.clientY]);
       }
     };
     const drag = (event) => {

@@ -12,7 +12,7 @@ report.keyboard = (() => {
     const tell = (cell) => {
       const { x, y, width, height } = report.map.box(map.place, cell);
       const at = report.chart.onScreen(map.place.svg, [x + width, y + height / 2]);
-      report.tooltip.show(report.hover.tell(model, cell, labels(), map.grid, model.stored), at);
+      report.tooltip.show(report.hover.tell(map, cell, labels()), at);
       report.tooltip.say(report.hover.say(model, cell, labels(), map.grid));
     };
     const move = (event, [right, up]) => {

@@ -12,10 +12,10 @@ report.measures = (() => {
   }
 
   function choice(model, store, index, words) {
-    const options = model.scatterNames.map((name) => {
-      const { quantity, unit } = described(model, name);
-      return [name, plain(labelled(quantity, unit))];
-    });
+    const options = model.scatterNames.map((name) => [
+      name,
+      report.data.measureWords(described(model, name)),
+    ]);
     const element = select({ name: `measure-${index}` }, options, store.state.scatter[index]);
     element.addEventListener("change", () => {
       store.set({

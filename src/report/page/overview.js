@@ -16,6 +16,7 @@ report.overview = (() => {
     ];
   }
 
+  /** A button that pins a run. */
   function runLink(model, run, more = "") {
     return create(
       "button",
@@ -85,5 +86,5 @@ report.overview = (() => {
     );
   }
 
-  return { hint, animated };
+  return { hint, animated, runLink };
 })();

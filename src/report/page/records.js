@@ -1,7 +1,7 @@
 /** A section on records: one, or several beside each other. */
 report.records = (() => {
   const { create, copyButton } = report.dom;
-  const { nodes } = report.markup;
+  const { nodes, plain } = report.markup;
   const { format } = report.numbers;
 
   /** Quantities of the records with their half widths: {rows: [{quantity, unit, values, half_widths}]}. */
@@ -111,7 +111,7 @@ report.records = (() => {
             "div",
             { class: "command" },
             create("code", {}, record.command),
-            copyButton("Copy", () => record.command),
+            copyButton("Copy", () => record.command, `the command of ${plain(record.name)}`),
           )
         : "",
       lines.length > 0
@@ -119,18 +119,7 @@ report.records = (() => {
             "details",
             { class: "fold" },
             create("summary", {}, "Scene file"),
-            create(
-              "pre",
-              { class: "scene" },
-              lines.map((line) =>
-                create(
-                  "span",
-                  { class: `scene-line ${line.state}` },
-                  line.state === "same" ? line.text : create("mark", {}, line.text),
-                  "\n",
-                ),
-              ),
-            ),
+            report.scene.box(lines),
           )
         : "",
     );

@@ -78,6 +78,15 @@ report.rules = (() => {
     });
   }
 
+  /** What comparisons read in place of stored evidence, as its threshold moved: {name, values}. */
+  function replaced(rules, measures, thresholds) {
+    const keys = new Set(moved(rules, thresholds).map(({ key }) => key));
+    return rules.list
+      .flatMap((rule) => rule.comparisons ?? [])
+      .filter(({ by }) => by && keys.has(by.key))
+      .map((it) => ({ name: it.name, values: column(it, measures, rules, thresholds) }));
+  }
+
   /** The thresholds that differ from the stored ones. */
   function moved(rules, thresholds) {
     return rules.thresholds.filter(({ key, value }) => thresholds[key] !== value);
@@ -109,5 +118,5 @@ report.rules = (() => {
     return [...written, ...snippets].join("\n\n");
   }
 
-  return { stored, relabel, explain, moved, toml };
+  return { stored, relabel, explain, replaced, moved, toml };
 })();

@@ -1,6 +1,11 @@
 /** The scene file of a run: the base text with what differs put in and marked. */
 report.scene = (() => {
-  /** Lines {text, state}: state is "same", "changed", "added" or "removed". */
+  const { create } = report.dom;
+
+  /**
+   * Lines {text, state, key, was}: state is "same", "changed", "added" or "removed", `was` the
+   * value of the base that is changed.
+   */
   function lines(text, changes) {
     const found = text
       .replace(/\n+$/, "")
@@ -13,9 +18,9 @@ report.scene = (() => {
   function change(found, key, value) {
     const { at, end } = find(found, key);
     if (at >= 0 && value === null) {
-      found[at].state = "removed";
+      Object.assign(found[at], { state: "removed", key });
     } else if (at >= 0) {
-      replace(found[at], value);
+      replace(found[at], key, value);
     } else if (value !== null) {
       insert(found, key, value, end);
     }
@@ -41,23 +46,52 @@ report.scene = (() => {
     return { at: -1, end };
   }
 
-  function replace(line, value) {
-    const [before, after] = [line.text.slice(0, line.text.indexOf("=") + 1), `${value}`];
-    const text = `${before} ${after}`;
+  function replace(line, key, value) {
+    const end = line.text.indexOf("=") + 1;
+    const text = `${line.text.slice(0, end)} ${value}`;
     if (text !== line.text) {
-      Object.assign(line, { text, state: "changed" });
+      const was = line.text.slice(end).trim();
+      Object.assign(line, { text, state: "changed", key, was });
     }
   }
 
   function insert(found, key, value, end) {
     const leaf = key.split(".").pop();
-    const line = { text: `${leaf} = ${value}`, state: "added" };
+    const line = { text: `${leaf} = ${value}`, state: "added", key };
     if (end >= 0) {
       found.splice(end, 0, line);
       return;
     }
     const table = key.split(".").slice(0, -1).join(".");
     found.push({ text: "", state: "same" }, { text: `[${table}]`, state: "added" }, line);
+  }
+
+  /** A line with what the base has in its place. */
+  function lineNodes(line, text = line.text) {
+    return [
+      line.state === "same" ? text : create("mark", {}, text),
+      line.was === undefined ? "" : create("span", { class: "was" }, `   # sweep: ${line.was}`),
+    ];
+  }
+
+  /** The whole file. */
+  function box(lines) {
+    const rows = lines.map((line) =>
+      create("span", { class: `scene-line ${line.state}` }, lineNodes(line), "\n"),
+    );
+    return create("pre", { class: "scene", tabindex: 0, "aria-label": "Scene file" }, rows);
+  }
+
+  /** The lines that differ, each with the table of its key. */
+  function differing(lines) {
+    const rows = lines
+      .filter((line) => line.key)
+      .map((line) => {
+        const table = line.key.split(".").slice(0, -1);
+        const text = [...table, line.text.trim()].join(".");
+        return create("li", { class: `scene-line ${line.state}` }, lineNodes(line, text));
+      });
+    return create("ul", { class: "differing" }, rows);
   }
 
   /** The keys in which a run differs from the base, with their values as TOML. */
@@ -99,5 +133,5 @@ report.scene = (() => {
     return model.section.command.replace(/\{(point|id|seed)\}/g, (_, name) => words[name]);
   }
 
-  return { lines, changesOf, command };
+  return { lines, box, differing, changesOf, command };
 })();

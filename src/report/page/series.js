@@ -74,8 +74,37 @@ report.series = (() => {
           ),
         }),
       ),
+      ...settled(frame, runs),
     );
     return { ...frame, column, runs };
+  }
+
+  /** Lines where runs settled, with the word at the last of them. */
+  function settled({ x, plot }, runs) {
+    const found = runs.filter((run) => run.settled >= x.low && run.settled <= x.high);
+    if (found.length === 0) {
+      return [];
+    }
+    const last = x.at(Math.max(...found.map((run) => run.settled)));
+    const isLeft = last > plot.right - 56;
+    const lines = found.map((run) =>
+      draw("path", {
+        class: "settled",
+        stroke: run.color,
+        d: `M${x.at(run.settled)} ${plot.top}V${plot.bottom}`,
+      }),
+    );
+    const word = draw(
+      "text",
+      {
+        class: "settled-word",
+        x: last + (isLeft ? -4 : 4),
+        y: plot.top + 13,
+        "text-anchor": isLeft ? "end" : "start",
+      },
+      "settled",
+    );
+    return [...lines, word];
   }
 
   function ends(values) {
@@ -158,8 +187,8 @@ report.series = (() => {
   }
 
   /**
-   * Charts of the chosen columns. `runs` are {name, color, time, columns}, with columns in the order
-   * of the list.
+   * Charts of the chosen columns. `runs` are {name, color, settled?, time, columns}, with columns
+   * in the order of the list.
    */
   function charts(columns, runs, chosen) {
     const element = create("div", { class: "charts" });

@@ -1,7 +1,10 @@
 /** The animation of the spheres of a run: from the side and from above. */
 report.spheres = (() => {
   const { create } = report.dom;
-  const PER_SECOND = 6;
+
+  /** At least so many milliseconds from a state to the next, and from the first to the last. */
+  const SHORTEST_PAUSE = 1000 / 6;
+  const SHORTEST_PLAY = 3000;
 
   /** Sprites of shaded spheres by radius in pixels, drawn once. */
   function sprites(color) {
@@ -122,7 +125,6 @@ report.spheres = (() => {
       const height = Math.min(420, (width * (up[1] - up[0])) / (across[1] - across[0]));
       scale = Math.min(width / (across[1] - across[0]), height / (up[1] - up[0])) * ratio;
       Object.assign(canvas, { width: width * ratio, height: Math.ceil(height * ratio) });
-      canvas.style.setProperty("height", `${Math.ceil(height)}px`);
       spriteOf = sprites(color);
       paint(frame);
     };
@@ -221,7 +223,7 @@ report.spheres = (() => {
       }
       show(current() >= last ? 0 : current());
       play.textContent = "Pause";
-      timer = setInterval(advance, 1000 / PER_SECOND);
+      timer = setInterval(advance, Math.max(SHORTEST_PAUSE, SHORTEST_PLAY / last));
     });
     const button = (words, name, by) =>
       create(

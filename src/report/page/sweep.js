@@ -185,7 +185,9 @@ report.sweep = (() => {
         slice: report.data.indices(model, place),
         tab: "point",
       });
+      element.querySelector(".point-head h3").focus();
     };
+    model.focusTab = () => element.querySelector("[role=tab][aria-selected=true]").focus();
     const map = report.map.follow({
       model,
       store,

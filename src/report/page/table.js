@@ -96,7 +96,7 @@ report.table = (() => {
       create(
         "th",
         { scope: "col", title: measure.description ?? null },
-        nodes(labelled(measure.quantity, measure.unit)),
+        report.data.measureNodes(measure),
       ),
     );
     return [

@@ -4,6 +4,8 @@ report.thresholds = (() => {
   const { nodes, labelled } = report.markup;
   const { format, counted } = report.numbers;
 
+  const MOST_LINKS = 10;
+
   /** A round step, about 1/200 of the range. */
   function stepOf({ low, high, step, is_whole: isWhole }) {
     if (step || isWhole) {
@@ -20,6 +22,10 @@ report.thresholds = (() => {
   function control(threshold, store) {
     const { key, stops } = threshold;
     const put = (value) => store.set({ thresholds: { ...store.state.thresholds, [key]: value } });
+    const putBack = () => {
+      put(threshold.value);
+      slider.focus();
+    };
     const id = report.dom.uniqueId("threshold");
     const slider = stops
       ? create("input", { type: "range", id, name: key, min: 0, max: stops.length - 1, step: 1 })
@@ -31,15 +37,18 @@ report.thresholds = (() => {
           max: threshold.high,
           step: stepOf(threshold),
         });
+    const named = { name: `${key}-value`, "aria-label": `${key}, exact` };
     const number = stops
-      ? create("output", { class: "value" })
+      ? report.dom.select(
+          named,
+          stops.map((stop) => [String(stop), format(stop)]),
+        )
       : create("input", {
+          ...named,
           type: "number",
-          name: `${key}-value`,
           min: threshold.low,
           max: threshold.high,
           step: "any",
-          "aria-label": `${key}, exact`,
         });
     const reset = create(
       "button",
@@ -47,7 +56,7 @@ report.thresholds = (() => {
         type: "button",
         class: "button small",
         "aria-label": `Reset ${key}`,
-        on: { click: () => put(threshold.value) },
+        on: { click: putBack },
       },
       "Reset",
     );
@@ -65,11 +74,7 @@ report.thresholds = (() => {
       const value = store.state.thresholds[key];
       slider.value = String(stops ? stops.indexOf(value) : value);
       slider.setAttribute("aria-valuetext", report.numbers.withUnit(value, threshold.unit));
-      if (stops) {
-        number.textContent = format(value);
-      } else {
-        number.value = String(value);
-      }
+      number.value = String(value);
       element.classList.toggle("moved", value !== threshold.value);
       stored.textContent =
         value === threshold.value ? "as stored" : `stored: ${format(threshold.value, 6)}`;
@@ -120,20 +125,39 @@ report.thresholds = (() => {
     return changed;
   }
 
-  /** From which label to which, and how many runs. */
+  /** Links to runs, at most some of them. */
+  function runLinks(model, runs) {
+    const hasSeeds = model.runs.seed && model.points.size < model.count;
+    const more = runs.length - MOST_LINKS;
+    return create(
+      "div",
+      { class: "links" },
+      runs
+        .slice(0, MOST_LINKS)
+        .map((run) =>
+          report.overview.runLink(model, run, hasSeeds ? `, seed ${model.runs.seed[run]}` : ""),
+        ),
+      more > 0 ? create("span", { class: "muted" }, `and ${more} more`) : "",
+    );
+  }
+
+  /** From which label to which, and which runs. */
   function transitions(model, labels) {
-    const counts = new Map();
+    const groups = new Map();
     labels.forEach((label, run) => {
       if (label !== model.stored[run]) {
         const key = `${model.stored[run]},${label}`;
-        counts.set(key, (counts.get(key) ?? 0) + 1);
+        groups
+          .set(key, groups.get(key) ?? [])
+          .get(key)
+          .push(run);
       }
     });
-    const found = [...counts].sort((one, other) => other[1] - one[1]);
+    const found = [...groups].sort((one, other) => other[1].length - one[1].length);
     return create(
       "ul",
       { class: "transitions" },
-      found.map(([key, count]) => {
+      found.map(([key, runs]) => {
         const [was, is] = key.split(",").map(Number);
         return create(
           "li",
@@ -141,7 +165,8 @@ report.thresholds = (() => {
           report.legend.chip(model, was),
           " → ",
           report.legend.chip(model, is),
-          ` ${counted(count, "run")}`,
+          ` ${counted(runs.length, "run")}`,
+          runLinks(model, runs),
         );
       }),
     );
@@ -152,12 +177,30 @@ report.thresholds = (() => {
       return ["The thresholds are as stored. Move one to label all runs again."];
     }
     const runs = labels.reduce((sum, label, run) => sum + Number(label !== model.stored[run]), 0);
-    const places = changed.size;
+    const places = `${counted(changed.size, "point")} of ${model.points.size}`;
     return [
       create("strong", {}, `${counted(runs, "label")} changed`),
-      ` of ${counted(model.count, "run")}; `,
-      `${counted(places, "point")} of ${model.points.size} with another majority`,
+      ` of ${counted(model.count, "run")}`,
+      model.points.size < model.count ? `; ${places} with another majority` : "",
     ];
+  }
+
+  /** How to keep the moved thresholds. */
+  function keeping(model, thresholds) {
+    const keys = report.rules
+      .moved(model.rules, thresholds)
+      .filter(({ toml, key }) => !toml && key.includes("."))
+      .map(({ key }) => key.split(".").slice(0, -1).join("."));
+    const tables = [...new Set(keys)].map((key) => `[${key}]`);
+    const folder = /^phase run --from ((?:'[^']*'|\\'|[^\s'])+) /.exec(model.section.command ?? "");
+    return create(
+      "p",
+      { class: "muted" },
+      "To keep these thresholds, set these keys in a copy of the sweep file",
+      tables.length > 0 ? ` (in its table ${tables.join(" or ")}, if it has one)` : "",
+      ", then: ",
+      create("code", {}, `phase classify ${folder?.[1] ?? "FOLDER"} --sweep FILE`),
+    );
   }
 
   function summary(model, store, labels) {
@@ -167,18 +210,12 @@ report.thresholds = (() => {
     const toml = report.rules.toml(model.rules, store.state.thresholds);
     return [
       transitions(model, labels),
-      create(
-        "p",
-        { class: "muted" },
-        "To keep these thresholds, write into the sweep file and run ",
-        create("code", {}, "phase classify"),
-        ":",
-      ),
+      keeping(model, store.state.thresholds),
       create(
         "div",
         { class: "command" },
         create("pre", { class: "toml" }, toml),
-        copyButton("Copy", () => `${toml}\n`),
+        copyButton("Copy", () => `${toml}\n`, "the moved thresholds"),
       ),
     ];
   }

@@ -23,9 +23,9 @@ report.tooltip = (() => {
     note.hidden = true;
   }
 
-  /** Says a text through screen readers. */
+  /** Says a text through screen readers, also if it is the one that was said last. */
   function say(text) {
-    live.textContent = text;
+    live.textContent = live.textContent === text ? `${text}\u00a0` : text;
   }
 
   /** Rows of names and values. */

@@ -59,9 +59,9 @@ report.why = (() => {
     );
   }
 
-  function comparison(model, { comparison: { measure, name, order }, value, limit }) {
-    const known = model.measures.get(measure);
-    const words = { ">=": "≥", "<=": "≤" }[order] ?? order;
+  function comparison(model, { comparison: { measure, name, order }, value, limit, holds }) {
+    const known = model.measures.get(measure ?? name);
+    const words = `${holds ? "" : "is not "}${{ ">=": "≥", "<=": "≤" }[order] ?? order}`;
     const told = value === null ? " has no value" : ` ${format(value)} ${words} ${format(limit)}`;
     return create(
       "span",
