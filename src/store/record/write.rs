@@ -44,13 +44,13 @@ pub(super) fn build(
     let long_start = long_start(&record.scene);
     header(&mut file, record, long_start.as_ref().map(|(rest, _)| rest))?;
     let mut scales = Scales::default();
-    if let Some((_, spheres)) = long_start {
-        Part::add(&mut file, "start", &mut scales, |part| start(part, spheres))?;
-    }
     Part::add(&mut file, "spheres", &mut scales, |part| {
         spheres(part, record);
         Ok(())
     })?;
+    if let Some((_, spheres)) = long_start {
+        Part::add(&mut file, "start", &mut scales, |part| start(part, spheres))?;
+    }
     Part::add(&mut file, "observations", &mut scales, |part| {
         observations(part, &record.observations, record.scene.unit_of_time());
         Ok(())
