@@ -4,10 +4,11 @@
     .ci/python_page.py docs/python.md
 """
 
+import pathlib
 import re
 import sys
 
-text = open(sys.argv[1]).read()
+text = pathlib.Path(sys.argv[1]).read_text()
 names = {}
 for block in re.finditer(r"^```python\n(.*?)^```$", text, re.M | re.S):
     # Lines of tracebacks are those of the page.

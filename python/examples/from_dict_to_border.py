@@ -34,7 +34,7 @@ scene = {
         "dissipation_time": 1e-3,
     },
     "gravity": {"acceleration": 9.8},
-    "drag": {"linear": 100.0},
+    "drag": {"linear": 100.0, "law": "cross-section"},
     "swirl": {"omega": 20.0},
     "time": {"dt": 1e-4, "duration": 3.0, "frame_interval": 1e-3},
 }
@@ -42,13 +42,14 @@ run = phase.run(scene, progress=False)
 print(run.attrs["label"], "after", float(run.time[-1]), run.time.attrs["units"])
 
 # %%
-figure, (left, right) = plt.subplots(1, 2, figsize=(9, 3.6), layout="constrained")
-run.height_mean.plot(ax=left)
-left.set_title("They fall, and the air drives them to the wall")
-end = run.position.isel(snapshot=-1)
-right.scatter(1e3 * end.sel(component="x"), 1e3 * end.sel(component="y"), s=60)
+figure, (left, right) = plt.subplots(1, 2, figsize=(9, 3.8), layout="constrained")
+(1e3 * run.height_mean).plot(ax=left)
+left.set(xlabel="time (s)", ylabel="mean height (mm)", title="They fall to the floor")
+for x, y, _ in 1e3 * run.position.isel(snapshot=-1).values:
+    right.add_patch(plt.Circle((x, y), 4.0, color="tab:blue", ec="white"))
 right.add_patch(plt.Circle((0, 0), 35, fill=False))
-right.set(aspect="equal", xlabel="x (mm)", ylabel="y (mm)", title=run.attrs["label"])
+right.set(aspect="equal", xlim=(-36, 36), ylim=(-36, 36), xlabel="x (mm)", ylabel="y (mm)")
+right.set_title(f"From above: {run.attrs['label']}")
 figure.savefig(folder / "run.png")
 
 # %% [markdown]
@@ -60,7 +61,7 @@ figure.savefig(folder / "run.png")
 sweep = {
     "scene": scene,
     "axis": [
-        {"key": "spheres.radius", "values": [0.003, 0.0035, 0.004, 0.0045, 0.005]},
+        {"key": "spheres.radius", "values": [0.0036, 0.004, 0.0044, 0.0048, 0.0052]},
         {"key": "swirl.omega", "from": 0.0, "to": 30.0, "step": 5.0},
     ],
 }
@@ -91,52 +92,51 @@ figure.savefig(folder / "diagram.png")
 # %% [markdown]
 # ## Questions
 #
-# Which runs decide where *pinned* begins? Those whose margin is closest to zero.
+# A run is pinned with a hole of two radii of a sphere in half of two seconds. Which runs decide
+# where this begins? Those whose hole is closest to that.
 
 # %%
-margin = abs(runs.pinned_margin).stack(run=("radius", "omega", "seed"))
-for place in margin.argsort()[:3].values:
-    deciding = runs.stack(run=("radius", "omega", "seed")).isel(run=place)
-    print(
-        f"r = {deciding.radius.item()} m, Omega = {deciding.omega.item()} rad/s:",
-        f"{deciding.label.item()}, margin {deciding.pinned_margin.item():.3f}",
-    )
+hole = (runs.hole_radius * scene["tank"]["radius"] / runs.radius).stack(run=runs.label.dims)
+for place in abs(hole - 2.0).argsort()[:3].values:
+    radius, omega, _ = hole.run.values[place]
+    print(f"r = {radius} m, Omega = {omega} rad/s: a hole of {hole[place].item():.2f} radii")
 
 # %% [markdown]
-# What if a hole of one and a half radii counted as pinned?
+# What if only holes of three radii counted?
 
 # %%
-wider = phase.classify(folder / "grid", sieves={"pinned": {"hole": 1.5}})
-print(int((wider.label != runs.label).sum()), "of", runs.label.size, "labels change")
+wider = phase.classify(runs, sieves={"pinned": {"hole": 3.0}})
+print((wider.label != runs.label).sum().item(), "of", runs.label.size, "labels change")
 
 # %% [markdown]
 # ## A border with its band
 #
-# With a table `refine` only runs are made that the border needs, here 40 of 465 points.
+# With a table `refine` only runs are made that the border needs, here 60 of 527 points.
 
 # %%
 refined = {
     "scene": scene,
     "axis": [
-        {"key": "spheres.radius", "from": 0.003, "to": 0.005, "count": 15},
+        {"key": "spheres.radius", "from": 0.0036, "to": 0.0052, "count": 17},
         {"key": "swirl.omega", "from": 0.0, "to": 30.0, "count": 31},
     ],
-    "refine": {"budget": 40, "start": 4, "replicates": 1},
+    "refine": {"budget": 60, "start": [5], "replicates": 1},
 }
 runs = phase.sweep(refined, out=folder / "refined", progress=False)
 borders = phase.refine(folder / "refined").borders("omega")
 print(borders[["radius", "omega", "below", "above", "low_95", "high_95"]].to_dataframe())
 
 # %%
-figure, axes = plt.subplots(figsize=(6, 4.2), layout="constrained")
-for pair in sorted(set(zip(borders.below.values, borders.above.values, strict=True))):
+figure, axes = plt.subplots(figsize=(6.4, 4.2), layout="constrained")
+pairs = sorted(set(zip(borders.below.values, borders.above.values, strict=True)))
+for pair, colour in zip(pairs, ["black", "tab:purple", "tab:brown"], strict=False):
     border = borders.isel(crossing=(borders.below == pair[0]) & (borders.above == pair[1]))
     radius = 1e3 * border.radius
     name = f"{pair[0]} to {pair[1]}"
-    (line,) = axes.plot(radius, border.omega, ".-", label=name)
-    axes.fill_between(radius, border.low_95, border.high_95, color=line.get_color(), alpha=0.15)
+    axes.plot(radius, border.omega, color=colour, label=name)
+    axes.fill_between(radius, border.low_95, border.high_95, color=colour, alpha=0.12)
 draw_labels(runs, axes)
-axes.set_title("40 runs: borders and their bands of 95 %")
+axes.set_title("60 runs: borders and their bands of 95 %")
 axes.legend(loc="upper left", bbox_to_anchor=(1, 1))
 figure.savefig(folder / "border.png")
 

@@ -1,29 +1,24 @@
 """The library in Rust."""
 
 from collections.abc import Callable
-from typing import Any, Literal, TypedDict, final
+from typing import Any, Literal, final
 
-import numpy
+from phase.types import Manner, Parts, Path, Wishes
 
-from phase.types import Path
-
-_Variable = tuple[tuple[str, ...], numpy.ndarray[Any, Any], dict[str, Any]]
-
-# Variables, coordinates and attributes of a data set.
-Parts = tuple[dict[str, _Variable], dict[str, _Variable], dict[str, Any]]
+__all__ = [
+    "Record",
+    "Refinement",
+    "classify_folder",
+    "classify_record",
+    "is_record",
+    "open_folder",
+    "read_record",
+    "run",
+    "sweep",
+    "to_toml",
+]
 
 _Show = Callable[[float, str], None]
-
-class Wishes(TypedDict):
-    seed: int | None
-    trajectory: bool
-    ledger: bool
-    snapshot_interval: float | None
-
-class Manner(TypedDict):
-    out: str | None
-    resume: bool
-    threads: int
 
 @final
 class Record:

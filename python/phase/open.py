@@ -7,7 +7,7 @@ import os
 import xarray
 
 from phase import _lib
-from phase.types import Path
+from phase.types import Parts, Path
 
 
 def open(path: Path) -> xarray.Dataset:
@@ -37,7 +37,7 @@ def open(path: Path) -> xarray.Dataset:
     return dataset(_lib.open_folder(path), path)
 
 
-def dataset(parts: _lib.Parts, source: Path | None = None) -> xarray.Dataset:
+def dataset(parts: Parts, source: Path | None = None) -> xarray.Dataset:
     """The data set of its parts, which were read from `source`."""
     made = xarray.Dataset(*parts)
     if source is not None:

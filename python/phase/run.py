@@ -9,7 +9,7 @@ import xarray
 from phase import _lib
 from phase.open import dataset_of_record
 from phase.progress import bar
-from phase.types import Path, Source, plain
+from phase.types import Manner, Path, Source, Wishes, plain
 
 
 def run(
@@ -64,13 +64,13 @@ def run(
     FailureError
         If the run or its record fails.
     """
-    wishes: _lib.Wishes = {
+    wishes: Wishes = {
         "seed": seed,
         "trajectory": trajectory,
         "ledger": ledger,
         "snapshot_interval": snapshot_interval,
     }
-    manner: _lib.Manner = {
+    manner: Manner = {
         "out": None if out is None else os.fspath(out),
         "resume": resume,
         "threads": threads,

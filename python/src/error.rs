@@ -42,26 +42,27 @@ impl Failure {
         }
     }
 
-    /// A file or the text of a dict is refused: the place is that of its first problem.
+    /// A file or the text of a dict is refused: the place is that of the first problem that has
+    /// one.
     pub(crate) fn of_text(error: LoadError) -> Self {
-        let message = error.to_string();
-        match error {
-            LoadError::Read { path, .. } => Self::refused(message).of(&path),
-            LoadError::Invalid(problems) => {
-                let refused = Self::refused(message);
-                let Some(first) = problems.into_iter().next() else {
-                    return refused;
-                };
-                Self {
-                    place: Place {
-                        line: first.spot.as_ref().map(|it| it.line),
-                        column: first.spot.as_ref().map(|it| it.column),
-                        file: Some(first.path),
-                    },
-                    help: first.help,
-                    ..refused
-                }
-            }
+        let refused = Self::refused(&error);
+        let mut problems = match error {
+            LoadError::Read { path, .. } => return refused.of(&path),
+            LoadError::Invalid(problems) => problems,
+        };
+        let first = problems.iter().position(|it| it.spot.is_some());
+        if problems.is_empty() {
+            return refused;
+        }
+        let first = problems.swap_remove(first.unwrap_or(0));
+        Self {
+            place: Place {
+                line: first.spot.as_ref().map(|it| it.line),
+                column: first.spot.as_ref().map(|it| it.column),
+                file: Some(first.path),
+            },
+            help: first.help,
+            ..refused
         }
     }
 

@@ -117,7 +117,8 @@ fn run_into(
             refused.help("without `resume` the run starts from the beginning")
         })?;
     }
-    let mut warn = |error: StoreError| watch.tell(0.0, format!("no checkpoint: {error}"));
+    // One that cannot be written is missed only by a run that is interrupted, which says so.
+    let mut warn = |_| {};
     match checkpoints.run(run, &mut |progress| control(watch, progress), &mut warn) {
         Ending::Finished(record) => {
             store::write_record(&record, path)?;

@@ -88,10 +88,17 @@ pub(crate) fn watched<T: Send>(
                 raised.get_or_insert(error);
             }
         }
+        if let (None, Err(error)) = (&raised, watch.show(py, progress)) {
+            raised = Some(error);
+        }
         let done = worker.join().unwrap_or_else(|panic| Err(bug(&*panic)));
-        match raised {
-            Some(error) => Err(error),
-            None => Ok(done?),
+        match (raised, done) {
+            (None, done) => Ok(done?),
+            (Some(error), Ok(_)) => Err(error),
+            (Some(error), Err(failure)) => {
+                error.set_cause(py, Some(failure.into()));
+                Err(error)
+            }
         }
     })
 }

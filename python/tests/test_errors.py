@@ -29,15 +29,15 @@ def test_a_file_is_refused_with_its_line(scene: Table, tmp_path: pathlib.Path) -
 
 
 def test_a_dict_is_refused_with_the_text_of_its_line(scene: Table) -> None:
-    scene["spheres"]["radus"] = scene["spheres"].pop("radius")
-    with pytest.raises(phase.RefusalError, match="radus = 0.004") as caught:
+    scene["spheres"]["raduis"] = scene["spheres"].pop("radius")
+    with pytest.raises(phase.RefusalError, match="raduis = 0.004") as caught:
         phase.run(scene)
     assert caught.value.file == "<dict>" and caught.value.line is not None
     assert "radius" in str(caught.value)
 
 
 def test_a_sweep_is_refused_with_its_line(sweep: Table, tmp_path: pathlib.Path) -> None:
-    sweep["axis"][0]["key"] = "spheres.radus"
+    sweep["axis"][0]["key"] = "spheres.raduis"
     with pytest.raises(phase.RefusalError, match="did you mean") as caught:
         phase.sweep(sweep, out=tmp_path / "out")
     assert caught.value.line is not None and caught.value.help is not None

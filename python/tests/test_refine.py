@@ -11,6 +11,7 @@ import pytest
 from conftest import RESULTS
 
 import phase
+from phase.refine import Point
 
 AXIS = numpy.linspace(0.0, 1.5, 31)
 
@@ -20,7 +21,7 @@ def circle(x: float, y: float) -> str:
 
 
 def refined(
-    order: Callable[[list[phase.refine.Point]], None] = lambda points: None, budget: int = 60
+    order: Callable[[list[Point]], None] = lambda points: None, budget: int = 60
 ) -> phase.Refinement:
     refinement = phase.refine({"x": AXIS, "y": AXIS}, budget=budget)
     while points := refinement.ask():
@@ -99,7 +100,7 @@ def test_seeds_tell_of_chance() -> None:
 
 
 def test_bands_end_it() -> None:
-    refinement = phase.refine({"x": AXIS}, budget=31, start=4, width=0.1)
+    refinement = phase.refine({"x": AXIS}, budget=31, start=4, width=0.2)
     while points := refinement.ask():
         for point in points:
             refinement.tell(point, point["x"] > 0.7)

@@ -12,6 +12,7 @@ from typing import Any
 
 import phase
 from phase import _lib
+from phase.types import Manner, Wishes
 
 Table = dict[str, Any]
 
@@ -27,7 +28,7 @@ except KeyboardInterrupt:
 
 def interrupt(call: str, pause: float) -> float:
     """Interrupts a call in another process, and gives the seconds that it takes to end."""
-    command = [sys.executable, "-c", CHILD.format(call=call)]
+    command = [sys.executable, "-P", "-c", CHILD.format(call=call)]
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as child:
         assert child.stdout is not None
         assert child.stdout.readline() == "begins\n"
@@ -96,13 +97,13 @@ def test_other_threads_go_on(scene: Table) -> None:
 def test_progress_is_told(scene: Table, tmp_path: pathlib.Path) -> None:
     told: list[tuple[float, str]] = []
     scene["time"]["duration"] = 100.0
-    wishes: _lib.Wishes = {
+    wishes: Wishes = {
         "seed": None,
         "trajectory": False,
         "ledger": False,
         "snapshot_interval": None,
     }
-    manner: _lib.Manner = {"out": None, "resume": False, "threads": 1}
+    manner: Manner = {"out": None, "resume": False, "threads": 1}
     _lib.run(scene, wishes, manner, lambda share, text: told.append((share, text)))
     shares = [share for share, _ in told]
     assert shares == sorted(shares) and 0.0 < shares[0] <= shares[-1] <= 1.0

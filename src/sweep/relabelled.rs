@@ -119,7 +119,7 @@ mod tests {
 
     #[test]
     fn rules_replace_sieves_and_go_again() {
-        let text = "label = [{ name = \"high\", when = \"last(height_max) > 0.1 m\" }]";
+        let text = "label = [{ name = \"high\", when = \"last(height_max) > 0.1[m]\" }]";
         let ruled = relabelled(text).unwrap();
         assert!(ruled.family().has_rules_alone());
         assert!(ruled.family().label("high").is_some());
@@ -132,7 +132,7 @@ mod tests {
     #[test]
     fn what_is_wrong_has_its_place() {
         for (text, expected) in [
-            ("sieves.pinned.hol = 1.5", "did you mean `hole`"),
+            ("sieves.pinned.whole = 1.5", "did you mean `hole`"),
             ("sieves.arching.window = 1.0", "is not a sieve of a tank"),
             ("title = \"other\"", "`title` does not decide on labels"),
             ("labels = \"silo\"", "the scene is a tank, and no silo"),

@@ -1,6 +1,6 @@
 """Points that are needed until 95 % of the labels of a map are predicted rightly.
 
-    python python/benchmarks/aiphad.py results/theoretical results/silo > table.md
+    python python/benchmarks/points_needed.py results/theoretical results/silo > table.md
 
 Beside `phase.refine` it runs the sampler of AIPHAD (Terayama et al., Phys. Rev. Materials 3,
 033802, 2019; Tamura et al., Commun. Mater. 5, 139, 2024; `pip install aiphad`) with its defaults:
@@ -21,6 +21,7 @@ import numpy.typing
 from aiphad import pdc_sampler
 
 import phase
+from phase.refine import Point
 
 WANTED = 0.95
 
@@ -50,17 +51,24 @@ class PublishedMap:
         refinement = phase.refine(self.axes, budget=len(self.labels), start=count)
         return [self.place(point) for point in refinement.ask()]
 
-    def place(self, point: phase.refine.Point) -> int:
+    def place(self, point: Point) -> int:
         """Index of a point."""
         indices = tuple(int(point[axis]) for axis in self.axes)
         return int(numpy.ravel_multi_index(indices, [len(it) for it in self.axes.values()]))
 
 
-def needed_by_phase(of: PublishedMap, start: int, round: int) -> int:
-    """Points that `phase.refine` needs, counted at the ends of its batches."""
+def needed_by_phase(of: PublishedMap, first: Indices, start: int, round: int) -> int:
+    """Points that `phase.refine` needs, counted at the ends of its batches.
+
+    It is told these first ones, and asks for its own coarse grid.
+    """
     budget = len(of.labels)
     refinement = phase.refine(of.axes, budget=budget, start=start, round=round)
     told = numpy.full(budget, "", dtype=of.labels.dtype)
+    for place in first:
+        told[place] = of.labels[place]
+        point = dict(zip(of.axes, of.points[place], strict=True))
+        refinement.tell(point, of.labels[place])
     while points := refinement.ask():
         for point in points:
             told[of.place(point)] = of.labels[of.place(point)]
@@ -101,19 +109,19 @@ def random_start(of: PublishedMap, count: int, seed: int) -> Indices:
     return [int(it) for it in chance.choice(len(of.labels), count, replace=False)]
 
 
-def rows(of: PublishedMap, seeds: int) -> Iterator[tuple[str, list[int]]]:
+def rows(of: PublishedMap, seeds: int, samplings: list[str]) -> Iterator[tuple[str, list[int]]]:
     """Each method with the numbers of points that it needs."""
     start = 6 if len(of.axes) < 3 else 2
     coarse = of.coarse(start)
-    yield "phase, batches of 8", [needed_by_phase(of, start, 8)]
-    yield "phase, one by one", [needed_by_phase(of, start, 1)]
-    for sampling in ("LC", "MS", "EA"):
+    yield "phase, coarse grid, batches of 8", [needed_by_phase(of, [], start, 8)]
+    yield "phase, coarse grid, one by one", [needed_by_phase(of, [], start, 1)]
+    for sampling in samplings:
         yield f"AIPHAD {sampling}, same coarse grid", [needed_by_aiphad(of, coarse, sampling)]
-    for sampling in ("LC", "MS", "EA", "RS"):
-        needed = []
-        for seed in range(seeds):
-            numpy.random.seed(seed)
-            needed.append(needed_by_aiphad(of, random_start(of, 10, seed), sampling))
+    starts = [random_start(of, 10, seed) for seed in range(seeds)]
+    needed = [needed_by_phase(of, first, 1, 1) for first in starts]
+    yield "phase, 10 random points, one by one", needed
+    for sampling in samplings:
+        needed = [needed_by_aiphad(of, first, sampling) for first in starts]
         yield f"AIPHAD {sampling}, 10 random points", needed
 
 
@@ -121,12 +129,13 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("folder", nargs="+", type=pathlib.Path)
     parser.add_argument("--seeds", type=int, default=5)
+    parser.add_argument("--samplings", default="LC,MS,EA", help="strategies of AIPHAD")
     arguments = parser.parse_args()
     print("| map | points | method | needed | share |\n|---|---|---|---|---|", flush=True)
     for folder in arguments.folder:
         of = PublishedMap(folder)
         count = len(of.labels)
-        for method, needed in rows(of, arguments.seeds):
+        for method, needed in rows(of, arguments.seeds, arguments.samplings.split(",")):
             middle = statistics.median(needed)
             span = f" ({min(needed)} to {max(needed)})" if len(needed) > 1 else ""
             share = f"{100 * middle / count:.0f} %"
