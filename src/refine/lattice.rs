@@ -13,6 +13,35 @@ pub enum AxisScale {
     Rank,
 }
 
+/// Largest difference between steps that count as equal, as a share of one.
+const UNEVEN: f64 = 1e-6;
+
+impl AxisScale {
+    /// The scale in which values are evenly spaced: linear if they have equal differences,
+    /// logarithmic if they have equal ratios, and else that of their ranks.
+    pub fn of(values: &[f64]) -> Self {
+        let steps = |forward: fn(f64) -> f64| -> Vec<f64> {
+            let pairs = values.windows(2);
+            pairs
+                .map(|pair| forward(pair[1]) - forward(pair[0]))
+                .collect()
+        };
+        let is_even = |steps: Vec<f64>| {
+            let mean = steps.iter().sum::<f64>() / steps.len().max(1) as f64;
+            steps
+                .iter()
+                .all(|step| (step - mean).abs() <= UNEVEN * mean.abs())
+        };
+        if is_even(steps(|value| value)) {
+            Self::Linear
+        } else if values.iter().all(|value| *value > 0.0) && is_even(steps(libm::log)) {
+            Self::Log
+        } else {
+            Self::Rank
+        }
+    }
+}
+
 /// One axis: a parameter of the runs and the values of candidates for runs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LatticeAxis {

@@ -144,6 +144,11 @@ impl Rounds {
         &self.lattice
     }
 
+    /// The settings.
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
     /// The runs so far and their labels.
     pub fn runs(&self) -> &Observations {
         &self.runs

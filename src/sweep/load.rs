@@ -48,18 +48,18 @@ pub(crate) struct SweepFile {
     /// The family of the scene, such as `tank`: its sieves label the runs of which no rule of this
     /// file holds, and rules of the scene's own file do not count. Absent: rules alone, if there
     /// are any.
-    labels: Option<String>,
+    pub(super) labels: Option<String>,
     /// Thresholds of the sieves, which label the runs.
     #[serde(default)]
-    sieves: Sieves,
+    pub(super) sieves: Sieves,
     /// Labels by rules of the file, in place of those of the sieves and of the scene's own file:
     /// the first whose condition holds is the run's.
     #[serde(default)]
-    label: Vec<LabelRule>,
+    pub(super) label: Vec<LabelRule>,
     /// What is measured of each run besides, by rules of the file, in place of those of the scene's
     /// own file.
     #[serde(default)]
-    measure: Vec<MeasureRule>,
+    pub(super) measure: Vec<MeasureRule>,
     /// What the phase diagram shows.
     #[serde(default)]
     plot: PlotSettings,
@@ -159,7 +159,7 @@ pub(crate) fn of_document(document: &Document) -> Result<Sweep, LoadError> {
 }
 
 /// What is wrong with the family that the file names.
-fn problem_of_labels(named: Option<&str>, scene: &Scene) -> Option<Problem> {
+pub(super) fn problem_of_labels(named: Option<&str>, scene: &Scene) -> Option<Problem> {
     let (named, family) = (named?, Family::of(scene));
     if named == family.name {
         return None;
@@ -212,7 +212,7 @@ fn rules_of(sweep: &mut Sweep) -> Rules {
 
 /// Sieves must be those of the scene's family, and the spout sieve reads counts that the scene must
 /// have asked for.
-fn check_sieves(sweep: &Sweep, tree: &Value, problems: &mut Vec<Problem>) {
+pub(super) fn check_sieves(sweep: &Sweep, tree: &Value, problems: &mut Vec<Problem>) {
     let variants = sweep.axes.iter().flat_map(|axis| &axis.variants);
     let variants: Vec<&Scene> = variants.map(|variant| &variant.scene).collect();
     problems.extend(sweep.sieves.rules.problems(&sweep.scene, &variants));

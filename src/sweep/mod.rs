@@ -16,6 +16,7 @@ mod plan;
 mod pool;
 mod records;
 mod refining;
+mod relabelled;
 mod select;
 mod shard;
 mod status;

@@ -53,6 +53,20 @@ impl Learnt {
             return Ok(None);
         };
         let lattice = sweep.lattice()?;
+        let runs = Self::runs_of(refining, table)?;
+        let map = probabilities(&lattice, &runs, settings)?;
+        Ok(Some(Self { lattice, runs, map }))
+    }
+
+    /// The runs of a table that are of a refined sweep so far, and those that failed; all rows if
+    /// `refining` does not say how far it is.
+    ///
+    /// # Errors
+    /// If one run has two labels.
+    pub fn runs_of(
+        refining: Option<&Refining>,
+        table: &LabelTable,
+    ) -> Result<Observations, RefineError> {
         let chosen = refining.map(Refining::runs);
         let is_of_sweep = |run: &Trial| {
             let mut chosen = chosen.iter();
@@ -73,8 +87,7 @@ impl Learnt {
                 runs.add(run.clone(), FAILED)?;
             }
         }
-        let map = probabilities(&lattice, &runs, settings)?;
-        Ok(Some(Self { lattice, runs, map }))
+        Ok(runs)
     }
 
     /// The borders along an axis.

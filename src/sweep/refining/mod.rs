@@ -14,7 +14,9 @@ pub use rounds::{Refined, RoundsError, WatchRounds};
 
 use super::{Job, Sweep};
 use crate::grid::{Axis, PointError};
-use crate::refine::{Finish, Lattice, RefineError, Settings, Trial, Width, start};
+use crate::refine::{
+    AxisScale, Finish, Lattice, LatticeAxis, RefineError, Settings, Trial, Width, start,
+};
 use crate::scene::LARGEST_SEED;
 use serde::{Deserialize, Serialize};
 
@@ -132,8 +134,7 @@ impl Sweep {
     pub fn lattice(&self) -> Result<Lattice, RefineError> {
         let axes = self.axes.iter();
         let axes = axes.map(|axis| {
-            let scale = scale::scale_of(&axis.values);
-            crate::refine::LatticeAxis::new(&axis.name, axis.values.clone(), scale)
+            LatticeAxis::new(&axis.name, axis.values.clone(), AxisScale::of(&axis.values))
         });
         Lattice::new(axes.collect::<Result<_, _>>()?)
     }

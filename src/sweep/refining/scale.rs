@@ -1,37 +1,11 @@
-//! In which scale the values of an axis are evenly spaced, and values between them.
+//! Values between those of an axis.
 
 use crate::grid::spacing;
 use crate::refine::{AxisScale, LatticeAxis, RefineError};
 
-/// Largest difference between steps that count as equal, as a share of one.
-const UNEVEN: f64 = 1e-6;
-
-/// Whether values have equal differences, equal ratios, or neither.
-pub(super) fn scale_of(values: &[f64]) -> AxisScale {
-    let steps = |forward: fn(f64) -> f64| -> Vec<f64> {
-        let pairs = values.windows(2);
-        pairs
-            .map(|pair| forward(pair[1]) - forward(pair[0]))
-            .collect()
-    };
-    let is_even = |steps: Vec<f64>| {
-        let mean = steps.iter().sum::<f64>() / steps.len().max(1) as f64;
-        steps
-            .iter()
-            .all(|step| (step - mean).abs() <= UNEVEN * mean.abs())
-    };
-    if is_even(steps(|value| value)) {
-        AxisScale::Linear
-    } else if values.iter().all(|value| *value > 0.0) && is_even(steps(libm::log)) {
-        AxisScale::Log
-    } else {
-        AxisScale::Rank
-    }
-}
-
 /// Ascending values with every step between them cut into `parts` equal ones in their scale.
 pub(super) fn finer(values: &[f64], parts: usize) -> Result<Vec<f64>, RefineError> {
-    let scale = scale_of(values);
+    let scale = AxisScale::of(values);
     let axis = LatticeAxis::new("", values.to_vec(), scale)?.finer(parts);
     let largest = values
         .iter()
@@ -52,17 +26,17 @@ mod tests {
     #[test]
     fn spacings_are_seen() {
         assert_eq!(
-            scale_of(&spacing::steps(0.002, 0.0001, 40)),
+            AxisScale::of(&spacing::steps(0.002, 0.0001, 40)),
             AxisScale::Linear
         );
         assert_eq!(
-            scale_of(&spacing::logarithmic(1e-3, 7.0, 23)),
+            AxisScale::of(&spacing::logarithmic(1e-3, 7.0, 23)),
             AxisScale::Log
         );
-        assert_eq!(scale_of(&[0.0, 4.0, 8.0, 16.0, 40.0]), AxisScale::Rank);
-        assert_eq!(scale_of(&[1.0, 2.0, 4.0, 9.0]), AxisScale::Rank);
-        assert_eq!(scale_of(&[3.0]), AxisScale::Linear);
-        assert_eq!(scale_of(&[3.0, 9.0]), AxisScale::Linear);
+        assert_eq!(AxisScale::of(&[0.0, 4.0, 8.0, 16.0, 40.0]), AxisScale::Rank);
+        assert_eq!(AxisScale::of(&[1.0, 2.0, 4.0, 9.0]), AxisScale::Rank);
+        assert_eq!(AxisScale::of(&[3.0]), AxisScale::Linear);
+        assert_eq!(AxisScale::of(&[3.0, 9.0]), AxisScale::Linear);
     }
 
     #[test]
@@ -75,7 +49,7 @@ mod tests {
                 0.002, 0.00205, 0.0021, 0.00215, 0.0022, 0.00225, 0.0023, 0.00235, 0.0024
             ]
         );
-        assert_eq!(scale_of(&found), AxisScale::Linear);
+        assert_eq!(AxisScale::of(&found), AxisScale::Linear);
         let found = finer(&[1e-3, 0.1, 10.0], 4).unwrap();
         assert_eq!(found.len(), 9);
         assert_eq!((found[2], found[4], found[6]), (1e-2, 0.1, 1.0));
