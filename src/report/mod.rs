@@ -1,7 +1,7 @@
-//! A page about results: one file of HTML with its data, styles and scripts, which needs no network.
+//! Pages about results: one file of HTML each, with its data, styles and scripts, and no network.
 //!
-//! What a page holds is a document of sections ([`document`]), which `page/README.md` describes and
-//! the scripts in `page/` show. [`html`] puts both together.
+//! What a page holds is a [`PageDocument`] of sections, which `page/README.md` describes and the
+//! scripts in `page/` show. [`html`] puts both together.
 
 mod codes;
 mod document;

@@ -32,7 +32,7 @@ report.data = (() => {
   /** The same for a table. */
   function measureNodes({ quantity, unit, name }) {
     const words = report.markup.nodes(report.markup.labelled(quantity, unit));
-    return [...words, " ", report.dom.create("code", {}, name)];
+    return [words, " ", report.dom.create("code", {}, name)];
   }
 
   /** "r = 0.003 m, Ω = 6 rad/s" as markup. */

@@ -55,7 +55,7 @@ report.dom = (() => {
   }
 
   /** A button that copies what `text` returns, and says so; `what` tells those who only hear it. */
-  function copyButton(words, text, what = "") {
+  function copyButton(words, text, what) {
     const button = create(
       "button",
       { type: "button", class: "button copy", "aria-label": what ? `${words} ${what}` : null },

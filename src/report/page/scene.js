@@ -70,7 +70,7 @@ report.scene = (() => {
   function lineNodes(line, text = line.text) {
     return [
       line.state === "same" ? text : create("mark", {}, text),
-      line.was === undefined ? "" : create("span", { class: "was" }, `   # sweep: ${line.was}`),
+      line.was ? create("span", { class: "was" }, `   # sweep: ${line.was}`) : "",
     ];
   }
 

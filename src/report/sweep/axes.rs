@@ -3,6 +3,7 @@
 use super::SweepResults;
 use crate::grid::Axis;
 use crate::plot;
+use crate::refine::AxisScale;
 use crate::report::document::{AxisOfPage, ShownEntry};
 use crate::report::records::changes_of;
 
@@ -61,25 +62,12 @@ impl AxisWithPlaces {
     }
 }
 
-/// How far values stand apart: evenly, or at equal ratios, or neither.
+/// How far values stand apart.
 fn spacing(values: &[f64]) -> &'static str {
-    /// Share by which rounding may change a step.
-    const ROUNDING: f64 = 1e-3;
-    let pairs = || values.windows(2);
-    let even = |steps: Vec<f64>| {
-        let least = steps.iter().copied().fold(f64::INFINITY, f64::min);
-        steps.iter().all(|step| *step <= least * (1.0 + ROUNDING))
-    };
-    let ratios = || {
-        pairs()
-            .map(|two| libm::log(two[1] / two[0]).abs())
-            .collect()
-    };
-    match values.len() {
-        0..=2 => "linear",
-        _ if even(pairs().map(|two| two[1] - two[0]).collect()) => "linear",
-        _ if values[0] > 0.0 && even(ratios()) => "logarithmic",
-        _ => "even",
+    match AxisScale::of(values) {
+        AxisScale::Linear => "linear",
+        AxisScale::Log => "logarithmic",
+        AxisScale::Rank => "even",
     }
 }
 
