@@ -132,7 +132,7 @@ impl Refinement {
         watched(py, None, |_| {
             let mut now = self.now()?;
             let map = now.rounds.map().map_err(refused)?.clone();
-            now.table_of(&map)
+            Ok(now.table_of(&map))
         })
     }
 
@@ -293,7 +293,7 @@ impl Refinement {
     }
 
     /// The most probable label, the probability of each, and the number of runs at all points.
-    fn table_of(&self, map: &ProbabilityMap) -> Result<Table, Failure> {
+    fn table_of(&self, map: &ProbabilityMap) -> Table {
         let lattice = self.rounds.lattice();
         let axes = lattice.axes().iter();
         let dimensions: Vec<_> = axes
@@ -318,11 +318,11 @@ impl Refinement {
         }
         let runs = variable("runs", Values::Integer(counts));
         variables.push(runs.of("1", "Number of runs that were made"));
-        Ok(Table {
+        Table {
             variables,
             coordinates: self.coordinates(),
             ..Table::default()
-        })
+        }
     }
 
     fn coordinates(&self) -> Vec<Variable> {

@@ -104,8 +104,18 @@ fn label(sweep: &Sweep, folder: &Folder, threads: usize) -> Result<(), Failure> 
     Ok(())
 }
 
-/// Refuses a folder in which files of another program are in the way.
+/// Refuses a folder of a study, and one in which files of another program are in the way.
 fn refuse_foreign(folder: &Folder) -> Result<(), Failure> {
+    if folder.read_sweep().is_ok_and(|it| it.study.is_some()) {
+        let root = folder.root();
+        let refused = format!(
+            "{}: this folder holds the results of a study",
+            root.display()
+        );
+        return Err(Failure::refused(refused)
+            .help("choose another `out`")
+            .of(root));
+    }
     let paths = FILES.map(|name| folder.root().join(name));
     match paths.iter().find(|path| !store::is_own_file(path)) {
         None => Ok(()),

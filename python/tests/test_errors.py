@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import pathlib
 import pickle
 from typing import Any
@@ -104,6 +105,17 @@ def test_files_of_others_are_kept(scene: Table, sweep: Table, tmp_path: pathlib.
     with pytest.raises(phase.RefusalError, match="would overwrite"):
         phase.sweep(sweep, out=tmp_path)
     assert record.read_text() == labels.read_text() == "mine"
+
+
+def test_results_of_studies_are_kept(sweep: Table, tmp_path: pathlib.Path) -> None:
+    phase.sweep(sweep, out=tmp_path)
+    file = tmp_path / "sweep.json"
+    stored = json.loads(file.read_text())
+    file.write_text(json.dumps({**stored, "study": "compared"}))
+    with pytest.raises(phase.RefusalError, match="results of a study"):
+        phase.sweep(sweep, out=tmp_path)
+    with pytest.raises(phase.RefusalError, match="results of a study"):
+        phase.open(tmp_path)
 
 
 def test_damaged_records_are_refused(scene: Table, tmp_path: pathlib.Path) -> None:
