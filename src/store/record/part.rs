@@ -1,7 +1,7 @@
 //! A group of datasets, each with its unit, its names and its axes.
 
 use super::cf;
-use super::scales::Scales;
+use super::scales::DimensionScales;
 use hdf5_pure::{AttrValue, DatasetBuilder, FileBuilder, GroupBuilder, H5Element};
 
 /// Effort of the compression, 1 to 9. Most of what is measured is noise in its last digits: on a
@@ -22,7 +22,7 @@ pub(super) struct StoredQuantity<'a>(pub &'a str, pub &'a str, pub &'a str);
 
 /// An axis of datasets.
 #[derive(Clone, Copy, PartialEq)]
-pub(super) enum Axis {
+pub(super) enum DatasetAxis {
     /// Frames or snapshots; each group has its own.
     Time,
     Sphere,
@@ -33,7 +33,7 @@ pub(super) enum Axis {
     RiseSpeed,
 }
 
-impl Axis {
+impl DatasetAxis {
     /// The axes that all groups share.
     pub(super) const COMMON: [Self; 5] = [
         Self::Sphere,
@@ -77,22 +77,22 @@ impl Axis {
 }
 
 /// A group of datasets.
-pub(super) struct Part<'a> {
+pub(super) struct RecordPart<'a> {
     name: &'a str,
     group: GroupBuilder,
-    scales: &'a mut Scales,
+    scales: &'a mut DimensionScales,
 }
 
-impl Part<'_> {
+impl RecordPart<'_> {
     /// Adds a group to a file.
     pub(super) fn add(
         file: &mut FileBuilder,
         name: &str,
-        scales: &mut Scales,
-        fill: impl FnOnce(&mut Part<'_>) -> Result<(), String>,
+        scales: &mut DimensionScales,
+        fill: impl FnOnce(&mut RecordPart<'_>) -> Result<(), String>,
     ) -> Result<(), String> {
         let group = file.create_group(name);
-        let mut part = Part {
+        let mut part = RecordPart {
             name,
             group,
             scales,
@@ -106,7 +106,7 @@ impl Part<'_> {
     pub(super) fn dataset<T: H5Element>(
         &mut self,
         quantity: StoredQuantity<'_>,
-        axes: &[(Axis, usize)],
+        axes: &[(DatasetAxis, usize)],
         values: &[T],
     ) {
         let shape: Vec<usize> = axes.iter().map(|(_, length)| *length).collect();
@@ -122,11 +122,11 @@ impl Part<'_> {
 
     /// Adds the times of a group, after all its other datasets.
     pub(super) fn time(&mut self, unit: &str, description: &str, values: &[f64]) {
-        let quantity = StoredQuantity(Axis::Time.quantity().0, unit, description);
+        let quantity = StoredQuantity(DatasetAxis::Time.quantity().0, unit, description);
         let dataset = self.group.create_dataset(quantity.0);
         fill(dataset, quantity, &[values.len()], values);
         self.scales
-            .make_scale(dataset, &Axis::Time.path(self.name), true);
+            .make_scale(dataset, &DatasetAxis::Time.path(self.name), true);
     }
 }
 
@@ -134,9 +134,9 @@ impl Part<'_> {
 /// where along the axis something is, if they are known.
 pub(super) fn common_axis(
     file: &mut FileBuilder,
-    axis: Axis,
+    axis: DatasetAxis,
     values: Option<Vec<f64>>,
-    scales: &mut Scales,
+    scales: &mut DimensionScales,
 ) {
     let quantity = axis.quantity();
     let path = axis.path("");

@@ -19,7 +19,7 @@ const NO_VARIABLE: &str = "This is a netCDF dimension but not a netCDF variable.
 
 /// The scales of a record, and which datasets they are scales of.
 #[derive(Debug, Default)]
-pub(super) struct Scales {
+pub(super) struct DimensionScales {
     scales: Vec<Scale>,
     /// Path of each dataset that has scales, and these by their places in the list.
     users: Vec<(String, Vec<usize>)>,
@@ -53,7 +53,7 @@ impl Scale {
     }
 }
 
-impl Scales {
+impl DimensionScales {
     /// Gives a dataset the scales of these paths and lengths, one for each of its axes. It gets
     /// none if one of them has another length, or too many datasets.
     pub(super) fn attach(
@@ -174,7 +174,7 @@ fn heap(addresses: &[u64]) -> Vec<u8> {
 /// A file that `hdf5-pure` writes, in which placeholders are replaced on the way.
 pub(super) struct Linked<'a, W> {
     file: &'a mut W,
-    scales: Scales,
+    scales: DimensionScales,
     /// The beginning, as far as it has been written, and how long it must be to be complete.
     head: Vec<u8>,
     needed: usize,
@@ -183,7 +183,7 @@ pub(super) struct Linked<'a, W> {
 }
 
 impl<'a, W: Write> Linked<'a, W> {
-    pub(super) fn new(file: &'a mut W, scales: Scales) -> Self {
+    pub(super) fn new(file: &'a mut W, scales: DimensionScales) -> Self {
         Self {
             file,
             scales,

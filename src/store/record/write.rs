@@ -1,7 +1,7 @@
 //! From a record to the bytes of an HDF5 file.
 
-use super::part::{Axis, Part, StoredQuantity, common_axis, short_text};
-use super::scales::{Linked, Scales};
+use super::part::{DatasetAxis, RecordPart, StoredQuantity, common_axis, short_text};
+use super::scales::{DimensionScales, Linked};
 use super::{FORMAT, FORMAT_VERSION, MOST_IN_TEXT, cf};
 use crate::observe::{Observations, Snapshot};
 use crate::record::{Outcome, Program, RunRecord};
@@ -16,7 +16,7 @@ const NOT_FINITE: &str = "its scene holds a number that is not finite; check the
 /// The HDF5 file of a record, still to be written, as it may be most of what fits into memory.
 pub(super) struct Content {
     file: FileBuilder,
-    scales: Scales,
+    scales: DimensionScales,
 }
 
 impl Content {
@@ -43,15 +43,15 @@ pub(super) fn build(
     }
     let long_start = long_start(&record.scene);
     header(&mut file, record, long_start.as_ref().map(|(rest, _)| rest))?;
-    let mut scales = Scales::default();
-    Part::add(&mut file, "spheres", &mut scales, |part| {
+    let mut scales = DimensionScales::default();
+    RecordPart::add(&mut file, "spheres", &mut scales, |part| {
         spheres(part, record);
         Ok(())
     })?;
     if let Some((_, spheres)) = long_start {
-        Part::add(&mut file, "start", &mut scales, |part| start(part, spheres))?;
+        RecordPart::add(&mut file, "start", &mut scales, |part| start(part, spheres))?;
     }
-    Part::add(&mut file, "observations", &mut scales, |part| {
+    RecordPart::add(&mut file, "observations", &mut scales, |part| {
         observations(part, &record.observations, record.scene.unit_of_time());
         Ok(())
     })?;
@@ -60,7 +60,7 @@ pub(super) fn build(
         ("trajectory", &record.trajectory),
     ] {
         if !states.is_empty() {
-            Part::add(&mut file, name, &mut scales, |part| {
+            RecordPart::add(&mut file, name, &mut scales, |part| {
                 snapshots(part, states).map_err(|reason| format!("{name}: {reason}"))
             })?;
         }
@@ -124,7 +124,7 @@ fn header(file: &mut FileBuilder, record: &RunRecord, rest: Option<&Scene>) -> R
     Ok(())
 }
 
-fn start(part: &mut Part<'_>, spheres: &[StartSphere]) -> Result<(), String> {
+fn start(part: &mut RecordPart<'_>, spheres: &[StartSphere]) -> Result<(), String> {
     let finite = |sphere: &StartSphere| {
         let vectors = [sphere.position, sphere.velocity, sphere.spin];
         let mut numbers = vectors.as_flattened().iter().chain(&sphere.radius);
@@ -141,14 +141,17 @@ fn start(part: &mut Part<'_>, spheres: &[StartSphere]) -> Result<(), String> {
     ];
     for (quantity, vector) in parts {
         let values: Vec<f64> = spheres.iter().flat_map(vector).copied().collect();
-        let axes = [(Axis::Sphere, spheres.len()), (Axis::Component, 3)];
+        let axes = [
+            (DatasetAxis::Sphere, spheres.len()),
+            (DatasetAxis::Component, 3),
+        ];
         part.dataset(quantity, &axes, &values);
     }
     let radius = |it: &StartSphere| it.radius.unwrap_or(f64::NAN);
     let values: Vec<f64> = spheres.iter().map(radius).collect();
     let description = "Radius of every sphere; not a number for the scene's radius";
     let quantity = StoredQuantity("radius", "m", description);
-    part.dataset(quantity, &[(Axis::Sphere, spheres.len())], &values);
+    part.dataset(quantity, &[(DatasetAxis::Sphere, spheres.len())], &values);
     Ok(())
 }
 
@@ -156,17 +159,17 @@ const POSITION: StoredQuantity<'_> = StoredQuantity("position", "m", "Centres x,
 const VELOCITY: StoredQuantity<'_> = StoredQuantity("velocity", "m/s", "Velocities x, y, z");
 const SPIN: StoredQuantity<'_> = StoredQuantity("spin", "rad/s", "Spins x, y, z");
 
-fn spheres(part: &mut Part<'_>, record: &RunRecord) {
-    let axes = [(Axis::Sphere, record.radius.len())];
+fn spheres(part: &mut RecordPart<'_>, record: &RunRecord) {
+    let axes = [(DatasetAxis::Sphere, record.radius.len())];
     let quantity = StoredQuantity("radius", "m", "Radius of every sphere");
     part.dataset(quantity, &axes, &record.radius);
-    let axes = [(Axis::Sphere, record.mass.len())];
+    let axes = [(DatasetAxis::Sphere, record.mass.len())];
     let quantity = StoredQuantity("mass", "kg", "Mass of every sphere");
     part.dataset(quantity, &axes, &record.mass);
 }
 
-fn observations(part: &mut Part<'_>, observations: &Observations, unit_of_time: &str) {
-    let frames = (Axis::Time, observations.frames());
+fn observations(part: &mut RecordPart<'_>, observations: &Observations, unit_of_time: &str) {
+    let frames = (DatasetAxis::Time, observations.frames());
     for series in observations.scalars() {
         let quantity = StoredQuantity(series.name, series.unit, series.description);
         part.dataset(quantity, &[frames], series.values);
@@ -179,7 +182,7 @@ fn observations(part: &mut Part<'_>, observations: &Observations, unit_of_time: 
     );
     let profile = observations.profile.as_standard_layout();
     let values = profile.as_slice().expect("standard layout");
-    let bins = (Axis::BinRadius, profile.ncols());
+    let bins = (DatasetAxis::BinRadius, profile.ncols());
     part.dataset(quantity, &[frames, bins], values);
     let quantity = StoredQuantity(
         "rising",
@@ -190,7 +193,11 @@ fn observations(part: &mut Part<'_>, observations: &Observations, unit_of_time: 
     let rising = observations.rising.as_standard_layout();
     let values = rising.as_slice().expect("standard layout");
     let (_, radii, speeds) = rising.dim();
-    let axes = [frames, (Axis::RiseRadius, radii), (Axis::RiseSpeed, speeds)];
+    let axes = [
+        frames,
+        (DatasetAxis::RiseRadius, radii),
+        (DatasetAxis::RiseSpeed, speeds),
+    ];
     part.dataset(quantity, &axes, values);
     part.time(unit_of_time, "Time of each frame", &observations.time);
 }
@@ -215,7 +222,7 @@ fn check_observations(observations: &Observations) -> Result<(), String> {
     Ok(())
 }
 
-fn snapshots(part: &mut Part<'_>, snapshots: &[Snapshot]) -> Result<(), String> {
+fn snapshots(part: &mut RecordPart<'_>, snapshots: &[Snapshot]) -> Result<(), String> {
     type Vectors = fn(&Snapshot) -> &Array2<f64>;
     let parts: [(StoredQuantity<'_>, Vectors); 3] = [
         (POSITION, |at| &at.position),
@@ -238,8 +245,12 @@ fn snapshots(part: &mut Part<'_>, snapshots: &[Snapshot]) -> Result<(), String> 
             continue;
         }
         let values: Vec<f64> = snapshots.iter().flat_map(vectors).copied().collect();
-        let states = (Axis::Time, snapshots.len());
-        let axes = [states, (Axis::Sphere, rows), (Axis::Component, 3)];
+        let states = (DatasetAxis::Time, snapshots.len());
+        let axes = [
+            states,
+            (DatasetAxis::Sphere, rows),
+            (DatasetAxis::Component, 3),
+        ];
         part.dataset(quantity, &axes, &values);
     }
     let time: Vec<f64> = snapshots.iter().map(|snapshot| snapshot.time).collect();
@@ -248,17 +259,19 @@ fn snapshots(part: &mut Part<'_>, snapshots: &[Snapshot]) -> Result<(), String> 
 }
 
 /// The axes that groups share.
-fn common_axes(file: &mut FileBuilder, record: &RunRecord, scales: &mut Scales) {
+fn common_axes(file: &mut FileBuilder, record: &RunRecord, scales: &mut DimensionScales) {
     let output = &record.scene.output;
     let radius = record.scene.tank.as_ref().and_then(|tank| tank.radius);
     let bins = record.observations.profile.ncols();
     let centre = |bin: usize, radius: f64| (bin as f64 + 0.5) * radius / bins as f64;
-    for axis in Axis::COMMON {
+    for axis in DatasetAxis::COMMON {
         let values = match axis {
-            Axis::BinRadius => radius.map(|it| (0..bins).map(|bin| centre(bin, it)).collect()),
-            Axis::RiseRadius => Some(output.rise_radii.clone()),
-            Axis::RiseSpeed => Some(output.rise_speeds.clone()),
-            Axis::Time | Axis::Sphere | Axis::Component => None,
+            DatasetAxis::BinRadius => {
+                radius.map(|it| (0..bins).map(|bin| centre(bin, it)).collect())
+            }
+            DatasetAxis::RiseRadius => Some(output.rise_radii.clone()),
+            DatasetAxis::RiseSpeed => Some(output.rise_speeds.clone()),
+            DatasetAxis::Time | DatasetAxis::Sphere | DatasetAxis::Component => None,
         };
         common_axis(file, axis, values, scales);
     }
