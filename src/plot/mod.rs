@@ -57,7 +57,7 @@ pub use beverloo::{FittedLaw, fitted_lines};
 pub use critical::{TheoryCurve, theory_curves};
 pub use error::{PlotError, PlotErrorKind};
 pub use figure::{Figure, figures};
-pub use grid::{ShownAxis, places, shown_axis};
+pub use grid::{ShownAxis, check, places, shown_axis};
 pub use map::figures_of_rules;
 pub use records::{RecordSet, captions, differences};
 pub use svg::Svg;

@@ -159,6 +159,13 @@ impl Arguments {
 
     fn of_sweep(&self, folder: &Folder) -> Result<Contents, Failure> {
         let sweep = folder.read_sweep()?;
+        if sweep.axes.is_empty() {
+            return Err(Failure::refused(format_args!(
+                "a sweep without axes has no diagram; give its records, {}/*.h5",
+                folder.records().display()
+            ))
+            .at(folder.root()));
+        }
         let table = labels::read(folder)?.with_variants(sweep.variants());
         let refining = folder.read_refining(&sweep)?;
         let learnt = Learnt::of(&sweep, refining.as_ref(), &table).map_err(Failure::failed)?;
@@ -175,7 +182,8 @@ impl Arguments {
             record: has_records.then_some(&reader as &RecordReader<'_>),
             animated: &animated,
             folder: format::shell_word(&folder.root().display().to_string()),
-        });
+        })
+        .map_err(|error| Failure::from(error).at(folder.labels()))?;
         Ok(Contents {
             title: section.title().to_owned(),
             bytes_of_animations: section.bytes_of_animations(),

@@ -180,7 +180,11 @@ pub(super) fn horizontal(source: &Source<'_>) -> Result<GridAxis, PlotError> {
     Ok(GridAxis::new(index, sweep, table))
 }
 
-pub(super) fn check(sweep: &Sweep, table: &LabelTable) -> Result<(), PlotError> {
+/// Checks that a table holds runs of the sweep, each with one value on each of its axes.
+///
+/// # Errors
+/// It does not, or it is empty.
+pub fn check(sweep: &Sweep, table: &LabelTable) -> Result<(), PlotError> {
     let names: Vec<&str> = sweep.axes.iter().map(|axis| axis.name.as_str()).collect();
     if names != table.axes {
         return Err(PlotError::file(format_args!(

@@ -12,7 +12,7 @@ use super::document::{
 use super::series::SeriesOfRuns;
 use super::states::states as states_of;
 use crate::classify::{Family, Label, LabelRow, LabelTable, Measure};
-use crate::plot;
+use crate::plot::{self, PlotError};
 use crate::record::RunRecord;
 use crate::store::StoreError;
 use crate::sweep::{Failure, Learnt, Sweep};
@@ -60,8 +60,12 @@ pub struct SweepResults<'a> {
 pub type RecordReader<'a> = dyn Fn(&str) -> Result<RunRecord, StoreError> + Sync + 'a;
 
 /// The section of a sweep. Records that cannot be read are left out, and the page says so.
-pub fn sweep(results: &SweepResults<'_>) -> SweepSection {
+///
+/// # Errors
+/// The table is not one of the sweep, or it is empty.
+pub fn sweep(results: &SweepResults<'_>) -> Result<SweepSection, PlotError> {
     let SweepResults { sweep, table, .. } = results;
+    plot::check(sweep, table)?;
     let family = table.family;
     let axes: Vec<AxisWithPlaces> = sweep
         .axes
@@ -78,7 +82,7 @@ pub fn sweep(results: &SweepResults<'_>) -> SweepSection {
     let read = of_records(results, &mut notes);
     let measures: Vec<&Measure> = family.measures().collect();
     let view = view(sweep);
-    SweepSection {
+    Ok(SweepSection {
         title: title(sweep),
         runs: runs(&table.rows, &labels, &places),
         measures: measures.iter().map(|it| measure(it, &table.rows)).collect(),
@@ -100,7 +104,7 @@ pub fn sweep(results: &SweepResults<'_>) -> SweepSection {
         notes,
         labels: labels.iter().map(label_entry).collect(),
         axes: axes.into_iter().map(|axis| axis.entry).collect(),
-    }
+    })
 }
 
 fn title(sweep: &Sweep) -> String {

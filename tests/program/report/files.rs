@@ -57,6 +57,33 @@ fn what_cannot_be_shown_is_refused() {
 }
 
 #[test]
+fn a_table_of_another_sweep_is_refused() {
+    let place = swept();
+    let path = place.path("results/tiny/labels.csv");
+    let table = std::fs::read_to_string(&path).unwrap();
+    std::fs::write(&path, table.replacen("omega", "alpha", 1)).unwrap();
+    let answer = place.phase(&["report", "results/tiny"]);
+    assert!(matches!(answer.code, Some(1 | 2)), "{answer:?}");
+    answer.complains("labels.csv");
+    assert!(!place.path("results/tiny/report.html").exists());
+}
+
+#[test]
+fn a_sweep_without_axes_has_records_only() {
+    let place = Workplace::new();
+    place.write("scene.toml", &crate::support::scene_file());
+    place.write(
+        "seeds.toml",
+        "scene = \"scene.toml\"\n[seeds]\nlist = [1, 2]\n",
+    );
+    place.phase(&["sweep", "seeds.toml", "--no-plot"]).code(0);
+    place
+        .phase(&["report", "results/seeds"])
+        .code(2)
+        .complains("give its records");
+}
+
+#[test]
 fn several_folders_have_a_page_each_and_a_lost_record_is_told() {
     let place = swept();
     place
