@@ -42,8 +42,8 @@ def classify(
     Returns
     -------
     xarray.Dataset
-        Of a folder: what `phase.open` returns, with the new labels. Of a run: label, code and
-        measures without dimensions.
+        Of a folder: what `phase.open` returns, with the new labels; of a part of its data set the
+        same part. Of a run: label, code and measures without dimensions, from all of its frames.
 
     Raises
     ------
@@ -57,7 +57,16 @@ def classify(
         return dataset(_lib.classify_record(found, changes))
     if os.path.isfile(found):
         return dataset(_lib.classify_record(_lib.read_record(found), changes))
-    return dataset(_lib.classify_folder(found, changes, threads), found)
+    labelled = dataset(_lib.classify_folder(found, changes, threads), found)
+    return _part(labelled, what) if isinstance(what, xarray.Dataset) else labelled
+
+
+def _part(labelled: xarray.Dataset, chosen: xarray.Dataset) -> xarray.Dataset:
+    """The part of the labels whose coordinates a data set of the same folder has."""
+    own = {name: chosen[name].values for name in labelled.dims if name in chosen.coords}
+    part = labelled.sel(own)
+    part.encoding.update(labelled.encoding)
+    return part
 
 
 def _record_or_path(what: xarray.Dataset | Path) -> _lib.Record | Path:

@@ -45,13 +45,26 @@ class Refinement:
             A point as `ask` gives it, or any other one of the grid.
         label : str, int or bool
             Its label, of which the text counts: 1 and "1" are equal.
+
+        Raises
+        ------
+        RefusalError
+            If the point is none of the grid, has another label already, or the label is none.
         """
-        missing = [axis for axis in self._asked.axes if axis not in point]
+        axes = self._asked.axes
+        several = self._asked.replicates > 1
+        known = [*axes, "seed"] if several else axes
+        missing = [name for name in known if name not in point]
         if missing:
-            help = "give a value of each axis"
+            help = "tell points as `ask` gives them"
             raise RefusalError(f"the point has no {', '.join(missing)}; {help}", help=help)
-        values = [float(point[axis]) for axis in self._asked.axes]
-        self._asked.tell(values, int(point.get("seed", 1)), str(label))
+        other = [str(name) for name in point if name not in known]
+        if other:
+            help = f"a point has {', '.join(known)}"
+            raise RefusalError(f"{', '.join(other)} is no axis; {help}", help=help)
+        values = [float(point[axis]) for axis in axes]
+        seed = int(point["seed"]) if several else self._asked.first_seed
+        self._asked.tell(values, seed, _text(label))
 
     @property
     def done(self) -> bool:
@@ -100,6 +113,34 @@ class Refinement:
     def _point(self, values: Sequence[float], seed: int) -> Point:
         point = dict(zip(self._asked.axes, values, strict=True))
         return {**point, "seed": seed} if self._asked.replicates > 1 else point
+
+
+# What points and data sets call otherwise.
+_TAKEN = {"seed", "label", "runs"}
+
+
+def _values(name: str, values: numpy.typing.ArrayLike) -> numpy.typing.NDArray[numpy.float64]:
+    """The values of an axis."""
+    if name in _TAKEN or not name:
+        help = "choose another name"
+        raise RefusalError(f"an axis cannot be called `{name}`; {help}", help=help)
+    try:
+        found = numpy.asarray(values, dtype=float)
+    except (TypeError, ValueError):
+        found = numpy.empty(0)
+    if found.ndim != 1 or found.size == 0:
+        help = "give a list of numbers"
+        raise RefusalError(f"the values of the axis `{name}` are no numbers; {help}", help=help)
+    return found
+
+
+def _text(label: object) -> str:
+    """The text of a label."""
+    is_label = isinstance(label, str | int | numpy.bool_ | numpy.integer | numpy.str_)
+    if not is_label or label == "":
+        help = "a label is a text that is not empty, a whole number or a truth value"
+        raise RefusalError(f"{label!r} is no label; {help}", help=help)
+    return str(label)
 
 
 def refine(
@@ -158,7 +199,10 @@ def refine(
     """
     if not isinstance(what, Mapping):
         return Refinement(_lib.Refinement.of_folder(what))
-    axes = {name: numpy.asarray(values, dtype=float).ravel() for name, values in what.items()}
+    axes = {str(name): _values(name, values) for name, values in what.items()}
+    if not 1 <= len(axes) <= 4:
+        help = "give one to four axes"
+        raise RefusalError(f"there are {len(axes)} axes; {help}", help=help)
     settings = {
         "budget": budget,
         "width": width,

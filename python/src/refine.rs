@@ -93,7 +93,10 @@ impl Refinement {
         let run = Trial { values, seed };
         self.check(&run, &label)?;
         self.open.retain(|open| *open != run);
-        self.told.push((run, label));
+        let is_told = self.told.iter().any(|(told, _)| *told == run);
+        if !is_told && self.rounds.runs().label(&run).is_none() {
+            self.told.push((run, label));
+        }
         self.end = None;
         Ok(())
     }
@@ -119,6 +122,12 @@ impl Refinement {
     fn axes(&self) -> Vec<&str> {
         let axes = self.rounds.lattice().axes().iter();
         axes.map(LatticeAxis::name).collect()
+    }
+
+    /// The first seed of points.
+    #[getter]
+    fn first_seed(&self) -> u64 {
+        self.rounds.settings().first_seed
     }
 
     /// Largest number of seeds of a point.

@@ -24,6 +24,14 @@ def test_the_same_thresholds_give_the_same_labels(sweep: Table, tmp_path: pathli
     assert phase.classify(runs).identical(runs)
 
 
+def test_a_part_of_a_folder_is_labelled_by_itself(sweep: Table, tmp_path: pathlib.Path) -> None:
+    runs = phase.sweep(sweep, out=tmp_path)
+    point = runs.sel(radius=0.004)
+    assert phase.classify(point).identical(point)
+    last = runs.isel(radius=[-1])
+    assert phase.classify(last).identical(last)
+
+
 def test_other_thresholds_change_labels_and_no_file(sweep: Table, tmp_path: pathlib.Path) -> None:
     runs = phase.sweep(sweep, out=tmp_path)
     before = content(tmp_path)

@@ -152,3 +152,44 @@ def test_a_full_grid_tells_borders_too() -> None:
     refinement = phase.refine(RESULTS / "theoretical-9x9")
     borders = refinement.borders("omega")
     assert "pinned" in set(borders.below.values) | set(borders.above.values)
+
+
+def test_a_point_counts_once() -> None:
+    refinement = phase.refine({"x": AXIS}, budget=7, start=4)
+    point = refinement.ask()[0]
+    for _ in range(3):
+        refinement.tell(point, "low")
+    assert refinement.runs == 1 and int(refinement.labels().runs.sum()) == 1
+    while points := refinement.ask():
+        for point in points:
+            refinement.tell(point, "low")
+            refinement.tell(point, "low")
+    assert refinement.runs == 7
+
+
+@pytest.mark.parametrize("label", [None, float("nan"), "", 0.5, [1], numpy.zeros(2)])
+def test_what_is_no_label_is_refused(label: object) -> None:
+    refinement = phase.refine({"x": AXIS}, budget=7, start=4)
+    with pytest.raises(phase.RefusalError, match="is no label"):
+        refinement.tell(refinement.ask()[0], label)
+
+
+@pytest.mark.parametrize("name", ["seed", "label", "runs", ""])
+def test_names_that_points_have_are_no_axes(name: str) -> None:
+    with pytest.raises(phase.RefusalError, match="cannot be called"):
+        phase.refine({name: AXIS}, budget=7, start=4)
+
+
+def test_axes_and_points_that_are_wrong_are_refused() -> None:
+    with pytest.raises(phase.RefusalError, match="five|5 axes"):
+        phase.refine({name: AXIS for name in "abcde"}, budget=50, start=2)
+    with pytest.raises(phase.RefusalError, match="are no numbers"):
+        phase.refine({"x": [AXIS, AXIS]}, budget=7, start=4)
+    with pytest.raises(phase.RefusalError, match="are no numbers"):
+        phase.refine({"x": ["a", "b"]}, budget=7, start=4)
+    refinement = phase.refine({"x": AXIS}, budget=7, start=4)
+    with pytest.raises(phase.RefusalError, match="y is no axis"):
+        refinement.tell({"x": 0.0, "y": 1.0}, "low")
+    several = phase.refine({"x": AXIS}, budget=20, start=4, replicates=2)
+    with pytest.raises(phase.RefusalError, match="has no seed"):
+        several.tell({"x": 0.0}, "low")
