@@ -16,8 +16,10 @@ from phase.types import Manner, Wishes
 
 Table = dict[str, Any]
 
+# What is started in the background ignores Ctrl-C, which Python then does too.
 CHILD = """
-import sys, time, phase
+import signal, time, phase
+signal.signal(signal.SIGINT, signal.default_int_handler)
 print("begins", flush=True)
 try:
     {call}
@@ -31,6 +33,9 @@ def interrupt(call: str, pause: float) -> float:
     command = [sys.executable, "-P", "-c", CHILD.format(call=call)]
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as child:
         assert child.stdout is not None
+        end = threading.Timer(120.0, child.kill)
+        end.daemon = True
+        end.start()
         assert child.stdout.readline() == "begins\n"
         time.sleep(pause)
         child.send_signal(signal.SIGINT)
@@ -38,6 +43,7 @@ def interrupt(call: str, pause: float) -> float:
         assert child.stdout.readline() == "interrupted\n"
         took = time.monotonic() - begin
         assert child.wait(timeout=20) == 0
+        end.cancel()
         return took
 
 
