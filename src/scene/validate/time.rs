@@ -7,6 +7,8 @@ use crate::scene::{Integrator, Output, Scene, Start, leaf, may_hold};
 /// Two times count as commensurate if their ratio is a whole number within this.
 const ROUNDING: f64 = 1e-6;
 
+const FRAME_INTERVAL: &str = "time.frame_interval";
+
 /// Largest number of frames: their observables are held in memory.
 pub(super) const MOST_FRAMES: f64 = 1e7;
 
@@ -58,19 +60,72 @@ impl Scene {
         }
         for (path, interval) in self.intervals_of_steps() {
             if !multiple(interval, dt) {
+                if path == FRAME_INTERVAL && self.has_frames_of_periods() {
+                    problems.push(not_dividing(dt, interval));
+                    continue;
+                }
                 problems.push(not_multiple(path, interval, "time.dt", dt));
             }
         }
     }
 
+    /// Sets the times that the scene gives in periods of its shaking.
+    pub(crate) fn set_times_of_shaking(&mut self) {
+        let effects = &self.dem.effects;
+        let Some(shaking) = &effects.shaking else {
+            return;
+        };
+        let Some(frames) = shaking.frames_per_period.map(f64::from) else {
+            return;
+        };
+        let period = shaking.period(effects.gravity.as_ref());
+        self.time.frame_interval = period / frames;
+        if let Some(periods) = shaking.periods {
+            self.time.duration = self.time.frame_interval * (f64::from(periods) * frames);
+        }
+    }
+
+    /// Removes the keys that [`set_times_of_shaking`](Self::set_times_of_shaking) reads.
+    pub(crate) fn forget_periods(&mut self) {
+        if let Some(shaking) = &mut self.dem.effects.shaking {
+            (shaking.frames_per_period, shaking.periods) = (None, None);
+        }
+    }
+
+    fn has_frames_of_periods(&self) -> bool {
+        let shaking = self.dem.effects.shaking.as_ref();
+        shaking.is_some_and(|it| it.frames_per_period.is_some())
+    }
+
     /// The times (s) that must be whole numbers of steps, by their keys.
     pub(crate) fn intervals_of_steps(&self) -> Vec<(&'static str, f64)> {
-        let mut intervals = vec![("time.frame_interval", self.time.frame_interval)];
+        let mut intervals = vec![(FRAME_INTERVAL, self.time.frame_interval)];
         if let Start::Feed { interval, .. } = self.start {
             intervals.push(("start.interval", interval));
         }
         intervals
     }
+}
+
+/// A step (s) that does not divide the time (s) between frames at chosen phases of the shaking.
+fn not_dividing(dt: f64, interval: f64) -> Problem {
+    let steps = interval / dt;
+    let message = format!(
+        "`time.dt` = {} s must divide the time between frames, a period of the shaking over \
+         `shaking.frames_per_period` = {} s, but there would be {} steps",
+        number(dt),
+        number(interval),
+        rounded(steps)
+    );
+    let below = libm::floor(steps);
+    let near = |whole: f64| accepted(interval / whole, |it| multiple(interval, it));
+    let steps = [below + 1.0, below].into_iter().filter(|it| *it >= 1.0);
+    let steps: Vec<String> = steps
+        .filter_map(near)
+        .map(|dt| format!("`dt = {dt}`"))
+        .collect();
+    let help = format!("use {} or `dt = \"auto\"`", steps.join(" or "));
+    Problem::new("time.dt", message).help(help)
 }
 
 /// Whether `time` is a whole multiple of `unit`, at least 1.
