@@ -14,6 +14,7 @@ pub(super) const MOST_FRAMES: f64 = 1e7;
 
 impl Scene {
     pub(super) fn check_times(&self, problems: &mut Vec<Problem>) {
+        self.check_times_of_shaking(problems);
         let time = &self.time;
         let interval = time.frame_interval;
         if !multiple(time.duration, interval) {
@@ -60,7 +61,7 @@ impl Scene {
         }
         for (path, interval) in self.intervals_of_steps() {
             if !multiple(interval, dt) {
-                if path == FRAME_INTERVAL && self.has_frames_of_periods() {
+                if path == FRAME_INTERVAL && self.times_of_shaking().is_some() {
                     problems.push(not_dividing(dt, interval));
                     continue;
                 }
@@ -69,19 +70,33 @@ impl Scene {
         }
     }
 
+    /// The interval of frames and the duration (s), if the scene gives them in periods of its
+    /// shaking.
+    fn times_of_shaking(&self) -> Option<[f64; 2]> {
+        let effects = &self.dem.effects;
+        let shaking = effects.shaking.as_ref()?;
+        let frames = f64::from(shaking.frames_per_period?);
+        let interval = shaking.period(effects.gravity.as_ref()) / frames;
+        let periods = shaking.periods.map(f64::from);
+        let duration = periods.map(|periods| interval * (periods * frames));
+        Some([interval, duration.unwrap_or(self.time.duration)])
+    }
+
     /// Sets the times that the scene gives in periods of its shaking.
     pub(crate) fn set_times_of_shaking(&mut self) {
-        let effects = &self.dem.effects;
-        let Some(shaking) = &effects.shaking else {
-            return;
-        };
-        let Some(frames) = shaking.frames_per_period.map(f64::from) else {
-            return;
-        };
-        let period = shaking.period(effects.gravity.as_ref());
-        self.time.frame_interval = period / frames;
-        if let Some(periods) = shaking.periods {
-            self.time.duration = self.time.frame_interval * (f64::from(periods) * frames);
+        if let Some([interval, duration]) = self.times_of_shaking() {
+            (self.time.frame_interval, self.time.duration) = (interval, duration);
+        }
+    }
+
+    /// A scene made by hand may hold other times than its keys say.
+    fn check_times_of_shaking(&self, problems: &mut Vec<Problem>) {
+        let present = [self.time.frame_interval, self.time.duration];
+        if self.times_of_shaking().is_some_and(|it| it != present) {
+            let message = "`time` does not hold the times that [shaking] gives in periods";
+            let help = "remove `frames_per_period` and `periods`, or use `Scene::with_chosen_step`";
+            let path = "shaking.frames_per_period";
+            problems.push(Problem::new(path, message).help(help));
         }
     }
 
@@ -90,11 +105,6 @@ impl Scene {
         if let Some(shaking) = &mut self.dem.effects.shaking {
             (shaking.frames_per_period, shaking.periods) = (None, None);
         }
-    }
-
-    fn has_frames_of_periods(&self) -> bool {
-        let shaking = self.dem.effects.shaking.as_ref();
-        shaking.is_some_and(|it| it.frames_per_period.is_some())
     }
 
     /// The times (s) that must be whole numbers of steps, by their keys.
