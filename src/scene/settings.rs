@@ -69,14 +69,10 @@ fn choose_times_of_shaking(tree: &mut Value) -> Vec<Problem> {
         return Vec::new();
     }
     let mut problems = Vec::new();
-    let [frames, periods] = TIMES_OF_SHAKING.map(|(key, _)| tree["shaking"][key].as_f64());
     let shaking = Shaking::deserialize(&tree["shaking"]).ok();
     let gravity = Gravity::deserialize(&tree["gravity"]).ok();
-    let period = shaking.map(|it| it.period(gravity.as_ref()));
-    let interval = period.zip(frames).map(|(period, frames)| period / frames);
-    let duration = period
-        .zip(periods)
-        .map(|(period, periods)| period * periods);
+    let times = shaking.and_then(|it| it.times(gravity.as_ref()));
+    let (interval, duration) = times.map_or((None, None), |(a, b)| (Some(a), b));
     for ((key, of_time), time) in TIMES_OF_SHAKING.into_iter().zip([interval, duration]) {
         if tree["shaking"][key].is_null() {
             continue;

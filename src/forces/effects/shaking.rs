@@ -4,11 +4,13 @@ use super::{Effect, EffectKeys, Effects, Gravity, OneBody, SceneFacts, Targets};
 use crate::document::quantities::length;
 use crate::document::{Problem, quantity, unit};
 use crate::forces::limit::{LARGEST_SWING, Limit, Regime};
+use crate::forces::simplification::{MeanSphere, Simplification};
 use crate::particles::block::BLOCK;
 use crate::particles::bodies::{Asked, Bodies};
 use crate::particles::vector::Vector;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_json::json;
 use std::f64::consts::TAU;
 
 /// A box that is shaken as a whole: its position is A sin(w t + p) along a direction. Positions and
@@ -47,12 +49,12 @@ pub struct Shaking {
     /// Frames in a period, from the phase of the start on, in place of `time.frame_interval`. With
     /// 1, all frames have this phase. Absent in the scene of a run, which has the interval.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(transform = unit("").at_least(1).at_most(1e6))]
-    pub frames_per_period: Option<u32>,
+    #[schemars(transform = unit("").at_least(1))]
+    pub frames_per_period: Option<u64>,
     /// Duration in periods, in place of `time.duration`; needs `frames_per_period`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(transform = unit("").at_least(1).at_most(1e9))]
-    pub periods: Option<u32>,
+    #[schemars(transform = unit("").at_least(1))]
+    pub periods: Option<u64>,
 }
 
 fn upward() -> [f64; 3] {
@@ -77,6 +79,14 @@ impl Shaking {
             Some(frequency) => 1.0 / frequency,
             None => TAU / self.angular_frequency(gravity),
         }
+    }
+
+    /// The interval of frames and the duration (s), each if it is given in periods.
+    pub(crate) fn times(&self, gravity: Option<&Gravity>) -> Option<(f64, Option<f64>)> {
+        let frames = self.frames_per_period? as f64;
+        let interval = self.period(gravity) / frames;
+        let duration = self.periods.map(|it| interval * (it as f64 * frames));
+        Some((interval, duration))
     }
 
     /// The most that the shaking changes the velocity of a free sphere in the frame of the box:
@@ -118,6 +128,21 @@ impl EffectKeys for Shaking {
         })
     }
 
+    /// Without the shaking, times in its periods stay as they are.
+    fn simplifications(
+        &self,
+        mut off: Simplification,
+        all: &Effects,
+        _: &MeanSphere,
+    ) -> Vec<Simplification> {
+        if let Some((interval, duration)) = self.times(all.gravity.as_ref()) {
+            off.set.push(("time.frame_interval", json!(interval)));
+            off.set
+                .extend(duration.map(|it| ("time.duration", json!(it))));
+        }
+        vec![off]
+    }
+
     fn problems(&self, all: &Effects, _: &SceneFacts) -> Vec<Problem> {
         let mut problems = Vec::new();
         let mut refuse = |path: &str, message: &str, help: &str| {
@@ -138,7 +163,7 @@ impl EffectKeys for Shaking {
             (None, Some(_)) if !falls => refuse(
                 "shaking.gamma",
                 "`shaking.gamma` is an acceleration over that of gravity, but there is no gravity",
-                "use `frequency`, or add [gravity] with an `acceleration` above 0",
+                "use `frequency` instead, or add [gravity] with `acceleration`",
             ),
             _ => {}
         }

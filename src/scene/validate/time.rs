@@ -75,10 +75,7 @@ impl Scene {
     fn times_of_shaking(&self) -> Option<[f64; 2]> {
         let effects = &self.dem.effects;
         let shaking = effects.shaking.as_ref()?;
-        let frames = f64::from(shaking.frames_per_period?);
-        let interval = shaking.period(effects.gravity.as_ref()) / frames;
-        let periods = shaking.periods.map(f64::from);
-        let duration = periods.map(|periods| interval * (periods * frames));
+        let (interval, duration) = shaking.times(effects.gravity.as_ref())?;
         Some([interval, duration.unwrap_or(self.time.duration)])
     }
 
