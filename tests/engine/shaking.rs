@@ -123,8 +123,8 @@ fn a_ball_lifts_off_at_the_acceleration_of_gravity() {
 /// (Holmes, J. Sound Vib. 84, 173 (1982); Luck and Mehta, Phys. Rev. E 48, 3988 (1993)). It leaves
 /// the floor at the phase whose cosine is the least value over A w^2 / g, with w v = pi g.
 ///
-/// Contacts last 1/200 of a period, and are found up to a step late, which changes what they return:
-/// heights deviate by up to 4 % of the flight, and by 2 % with half the step.
+/// Contacts last 1/200 of a period, and are found up to a step late, which changes what they
+/// return: heights deviate by up to 4 % of the flight, and by 2 % with half the step.
 #[test]
 fn a_ball_keeps_to_its_orbit_of_one_period() {
     let restitution = 0.5;

@@ -63,8 +63,8 @@ impl Scene {
     /// The scene to run, checked. If `time.safety_factor` is set, the time step is chosen: the
     /// largest step that is at most this factor times every limit in
     /// [`timestep::limits`](crate::dem::timestep::limits) and that divides the intervals of frames
-    /// and of the feed. The returned scene has a number as its step and no safety factor. Times that
-    /// the scene gives in periods of its shaking become numbers too.
+    /// and of the feed. The returned scene has a number as its step and no safety factor. Times
+    /// that the scene gives in periods of its shaking become numbers too.
     ///
     /// # Errors
     /// [`Scene::problems`] of the returned scene; also if a step must be chosen but nothing limits

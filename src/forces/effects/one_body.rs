@@ -7,9 +7,9 @@ use fearless_simd::Level;
 
 /// An effect adds to the forces and torques of the spheres.
 pub(crate) trait Effect: Send + Sync {
-    /// Prepares the forces of a moment, `time` (s) after the start. `shielding` is, for each sphere,
-    /// the number of lower spheres that shield it from the updraught; empty in a scene without
-    /// updraught.
+    /// Prepares the forces of a moment, `time` (s) after the start. `shielding` is, for each
+    /// sphere, the number of lower spheres that shield it from the updraught; empty in a scene
+    /// without updraught.
     fn prepare(&mut self, time: f64, shielding: &[u32]);
 
     /// Adds its forces and torques to a block of spheres.
