@@ -87,6 +87,7 @@ impl DemSimulation {
                 damping: -work.damping,
                 friction: -work.tangential - contacts.spring_energy,
                 air: work.air,
+                shaking: work.shaking,
                 brought: work.brought,
             }),
             flow: self.counts().map(|counts| Flow {

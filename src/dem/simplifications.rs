@@ -96,6 +96,7 @@ mod tests {
         let expected = [
             "gravity off",
             "buoyancy off",
+            "shaking off",
             "added mass off",
             "quadratic drag to linear",
             "vector drag to component",

@@ -140,11 +140,13 @@ scalars! {
             springs do not store";
     work_of_air "J" "Work of the air on the spheres since the start, including the damping of \
         spins";
+    work_of_shaking "J"
+        "Work of the shaking on the spheres since the start, in the frame of the box";
     energy_brought "J"
         "Energy of spheres that came in since the start, minus the energy of spheres that left";
     residual "J"
-        "All energy plus dissipation, minus the energy from air and new spheres, minus the same at \
-            the start: the error of the integrator";
+        "All energy plus dissipation, minus the energy from air, shaking and new spheres, minus \
+            the same at the start: the error of the integrator";
 }
 
 impl Observations {
@@ -185,10 +187,14 @@ impl Observations {
                 flows,
                 "spheres come and go only through a feed, a door, an outlet or an opening",
             ),
+            "work_of_shaking" if dem.effects.shaking.is_none() => {
+                (false, "only a scene with [shaking] is shaken")
+            }
             "springs"
             | "dissipated_by_damping"
             | "dissipated_by_friction"
             | "work_of_air"
+            | "work_of_shaking"
             | "energy_brought"
             | "residual" => (
                 scene.output.ledger,

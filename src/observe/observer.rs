@@ -39,6 +39,8 @@ pub struct Observer {
     has_speed: bool,
     /// Whether there are spheres at all: another program has its own columns only.
     has_spheres: bool,
+    /// Whether the box is shaken.
+    is_shaken: bool,
     bins: usize,
     bin_width: f64,
     /// Least rises per frame relative to the mean, in radii of the sphere.
@@ -106,6 +108,7 @@ impl Observer {
             has_contacts: scene.dem.contact.is_some(),
             has_energies: scene.spot.is_none() && (output.ledger || any(&energies)),
             has_spheres: !scene.is_external(),
+            is_shaken: scene.dem.effects.shaking.is_some(),
             air_rotation: scene
                 .dem
                 .effects
@@ -239,7 +242,8 @@ impl Observer {
     fn note_ledger(&mut self, ledger: &Ledger, energy: f64) {
         let balance = energy + ledger.springs + ledger.damping + ledger.friction
             - ledger.air
-            - ledger.brought;
+            - ledger.brought
+            - ledger.shaking;
         let start = *self.balance.get_or_insert(balance);
         let observations = &mut self.observations;
         observations.springs.push(ledger.springs as f32);
@@ -250,6 +254,9 @@ impl Observer {
             .dissipated_by_friction
             .push(ledger.friction as f32);
         observations.work_of_air.push(ledger.air as f32);
+        if self.is_shaken {
+            observations.work_of_shaking.push(ledger.shaking as f32);
+        }
         observations.energy_brought.push(ledger.brought as f32);
         observations.residual.push((balance - start) as f32);
     }

@@ -82,6 +82,10 @@ fn accounts(observations: &Observations) -> Vec<Account> {
         ),
         ("work of the air", line(&observations.work_of_air, pink)),
         (
+            "work of the shaking",
+            line(&observations.work_of_shaking, BLACK),
+        ),
+        (
             "brought by spheres",
             line(&observations.energy_brought, palette::GUIDE),
         ),

@@ -21,7 +21,8 @@ impl Scene {
 
     /// Like [`load`](Self::load), for a scene that will be varied: with `dt = "auto"`,
     /// `time.safety_factor` is kept in addition to the chosen number, so that
-    /// [`Scene::with_chosen_step`] can choose again after other keys have changed.
+    /// [`Scene::with_chosen_step`] can choose again after other keys have changed. So are
+    /// `shaking.frames_per_period` and `shaking.periods`.
     ///
     /// # Errors
     /// As for [`load`](Self::load).
@@ -131,6 +132,7 @@ fn of_document(document: &Document) -> Result<Scene, LoadError> {
 /// A scene that is not varied.
 fn to_be_run(mut scene: Scene) -> Scene {
     scene.time.safety_factor = None;
+    scene.forget_periods();
     Rules::of(&scene).choose_columns(&mut scene);
     scene
 }
@@ -219,10 +221,13 @@ fn base_with_files(
         }
     }
     (reading.prepare)(&mut scene);
+    scene.set_times_of_shaking();
     if is_auto {
         let safety_factor = *scene.time.safety_factor.get_or_insert(SAFETY_FACTOR);
+        let shaking = scene.dem.effects.shaking.clone();
         scene = scene.with_chosen_step_in_range()?;
         scene.time.safety_factor = Some(safety_factor);
+        scene.dem.effects.shaking = shaking;
         return with_rules(scene);
     }
     match (reading.check)(&scene) {

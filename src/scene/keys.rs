@@ -1,5 +1,6 @@
 //! The numeric keys of a scene by their paths, so that a sweep can vary any of them.
 
+use super::settings::TIMES_OF_SHAKING;
 use super::{LIST_KEY, SCENE, Scene};
 use crate::document::kind::{KeyTable, NumberRange, TableKey, ValueKind};
 use crate::document::{Problem, any_of, lasting, one_of, suggest};
@@ -101,6 +102,13 @@ impl Scene {
         }
         if self.time.safety_factor.is_none() {
             keys.retain(|key| key.path != SAFETY_FACTOR_KEY);
+        }
+        if let Some(shaking) = &self.dem.effects.shaking {
+            let replaced = TIMES_OF_SHAKING.map(|(_, of_time)| format!("time.{of_time}"));
+            let given = [shaking.frames_per_period, shaking.periods].map(|it| it.is_some());
+            for (path, _) in replaced.iter().zip(given).filter(|(_, given)| *given) {
+                keys.retain(|key| key.path != *path);
+            }
         }
         keys
     }

@@ -78,6 +78,8 @@ impl Sweep {
 /// steps and frames, and stores nothing else.
 fn balanced(mut scene: Scene, frames: u64) -> Result<Scene, Vec<Problem>> {
     scene.output = output_of_balance();
+    scene.set_times_of_shaking();
+    scene.forget_periods();
     if scene.time.safety_factor.is_some() {
         scene.time.frame_interval = scene.time.duration / frames as f64;
         scene = scene.with_chosen_step()?;

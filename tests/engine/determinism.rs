@@ -1,6 +1,6 @@
 //! The same input gives the same bits, a broken guard names its place, and nothing panics.
 
-use crate::scenes::{INTEGRATORS, State, cluster, frictions, state, tank, water};
+use crate::scenes::{INTEGRATORS, State, cluster, frictions, shaken, state, tank, water};
 use phase::dem::{DemSimulation, timestep};
 use phase::record::{Guard, Instability};
 use phase::scene::{Coulomb, Friction, Integrator, Mindlin, Scene, Spin, StartSphere};
@@ -12,6 +12,7 @@ fn tanks() -> impl Iterator<Item = Scene> {
     let laws = frictions().into_iter();
     let air = laws.flat_map(|law| INTEGRATORS.map(|integrator| tank(law.clone(), integrator)));
     air.chain(INTEGRATORS.map(water))
+        .chain(INTEGRATORS.map(shaken))
 }
 
 fn run(scene: &Scene, steps: u64) -> State {

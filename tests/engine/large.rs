@@ -2,7 +2,7 @@
 //! scene, and no bit depends on how a run is interrupted, on the numbers of spheres, or on the
 //! threads that it runs on.
 
-use crate::scenes::{INTEGRATORS, tank};
+use crate::scenes::{INTEGRATORS, shake, tank};
 use crate::support::Workplace;
 use phase::dem::DemSimulation;
 use phase::dem::order::MANY;
@@ -148,8 +148,10 @@ fn an_interrupted_run_goes_on_with_the_same_bits() {
 #[test]
 fn bits_do_not_depend_on_the_threads() {
     for integrator in INTEGRATORS {
-        for friction in [None, mindlin()] {
-            let scene = large(friction.clone(), integrator);
+        let mut shaken = large(mindlin(), integrator);
+        shake(&mut shaken);
+        let in_air = [None, mindlin()].map(|friction| large(friction, integrator));
+        for scene in in_air.into_iter().chain([shaken]) {
             let mut one = DemSimulation::new(&scene).unwrap();
             one.advance(STEPS).unwrap();
             let expected = bits(&mut one);
@@ -162,7 +164,8 @@ fn bits_do_not_depend_on_the_threads() {
             }
             assert!(
                 bits(&mut several) == expected,
-                "{integrator:?}, {friction:?}"
+                "{integrator:?}, {:?}",
+                scene.dem.friction
             );
         }
     }

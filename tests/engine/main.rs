@@ -23,6 +23,7 @@ mod reproduction;
 mod rolling;
 #[path = "../scenes/mod.rs"]
 mod scenes;
+mod shaking;
 mod silo;
 mod spins;
 mod spring_energy;

@@ -15,7 +15,7 @@ enum Row {
 }
 use Row::{Limit, None};
 
-const ROWS: [(&str, Row); 56] = [
+const ROWS: [(&str, Row); 60] = [
     ("start.random.speed", Limit("displacement", HERTZ)),
     ("start.random.spin", Limit("Magnus lift", HERTZ)),
     ("start.list.spheres.velocity", Limit("displacement", LISTED)),
@@ -73,6 +73,7 @@ const ROWS: [(&str, Row); 56] = [
     ("driven.velocity", Limit("displacement", LISTED)),
     ("driven.angular_frequency", Limit("driven period", LISTED)),
     ("gravity.acceleration", Limit("displacement", HERTZ)),
+    ("shaking.frequency", Limit("shaking period", HERTZ)),
     ("drag.linear", Limit("drag", HERTZ)),
     ("drag.viscosity", Limit("drag", LISTED)),
     ("swirl.omega", Limit("drag", HERTZ)),
@@ -112,6 +113,9 @@ const ROWS: [(&str, Row); 56] = [
     ("swirl.omega", Limit("drag", TURNING)),
     ("gravity.tilt", Limit("displacement", HERTZ)),
     ("driven.amplitude", Limit("displacement", LISTED)),
+    ("shaking.gamma", Limit("shaking period", FED)),
+    ("shaking.amplitude", Limit("shaking period", FED)),
+    ("shaking.amplitude", Limit("displacement", HERTZ)),
     ("spheres.density", Limit("drag", TURNING)),
 ];
 
@@ -125,6 +129,7 @@ const HERTZ: &str = "
     tank = { radius = 0.06, floor = 0.0 }
     start = { kind = 'random', z_min = 0.1, z_max = 0.2, speed = 9.0, spin = 9e4 }
     gravity = { acceleration = 9e3, tilt = 0.2 }
+    shaking = { amplitude = 1e-2, frequency = 9e3 }
     drag = { law = 'diameter', linear = 9.0, quadratic = 0.2 }
     swirl = { omega = 200.0 }
     updraught = { speed = 9.0, decay = 25.0, origin = 0.0, alpha = 0.5, reference_omega = 1e3 }
@@ -152,7 +157,8 @@ const FED: &str = "
     spheres = { count = 2, density = 1e4, radius = 0.004 }
     tank = { radius = 0.06, floor = 0.0 }
     start = { kind = 'feed', position = [0, 0, 1], velocity = [0, 0, -1.0], interval = 0.1 }
-    gravity = { acceleration = 9.8 }";
+    gravity = { acceleration = 9.8 }
+    shaking = { amplitude = 1e-3, gamma = 3.0 }";
 
 const SILBERT: &str = "
     contact = { law = 'silbert', stiffness = 2e6, damping = 1e4 }

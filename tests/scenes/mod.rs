@@ -5,7 +5,8 @@ use phase::dem::DemSimulation;
 use phase::particles::Particles;
 use phase::particles::vector::Vector;
 use phase::scene::{
-    Contact, Coulomb, Friction, Hertz, Integrator, Mindlin, Scene, Spin, Start, StartSphere,
+    Contact, Coulomb, Friction, Hertz, Integrator, Mindlin, Scene, Shaking, Spin, Start,
+    StartSphere,
 };
 use proptest::prelude::*;
 
@@ -62,6 +63,28 @@ pub(crate) fn water(integrator: Integrator) -> Scene {
     let mut scene = Scene::load("tests/good/water.toml".as_ref()).unwrap();
     scene.time.integrator = integrator;
     scene
+}
+
+/// The small tank without air, shaken obliquely.
+pub(crate) fn shaken(integrator: Integrator) -> Scene {
+    let mut scene = tank(frictions()[3].clone(), integrator);
+    shake(&mut scene);
+    scene
+}
+
+/// Takes the air out of a scene and shakes it.
+pub(crate) fn shake(scene: &mut Scene) {
+    let effects = &mut scene.dem.effects;
+    (effects.drag, effects.swirl, effects.updraught) = (None, None, None);
+    effects.shaking = Some(Shaking {
+        amplitude: 1e-3,
+        frequency: Some(40.0),
+        gamma: None,
+        direction: [0.2, 0.0, 1.0],
+        phase: 0.3,
+        frames_per_period: None,
+        periods: None,
+    });
 }
 
 /// Spheres in empty space that fly at one another.

@@ -63,7 +63,8 @@ impl Scene {
     /// The scene to run, checked. If `time.safety_factor` is set, the time step is chosen: the
     /// largest step that is at most this factor times every limit in
     /// [`timestep::limits`](crate::dem::timestep::limits) and that divides the intervals of frames
-    /// and of the feed. The returned scene has a number as its step and no safety factor.
+    /// and of the feed. The returned scene has a number as its step and no safety factor. Times
+    /// that the scene gives in periods of its shaking become numbers too.
     ///
     /// # Errors
     /// [`Scene::problems`] of the returned scene; also if a step must be chosen but nothing limits
@@ -78,6 +79,7 @@ impl Scene {
         if self.spot.is_some() {
             self.time.dt = self.time.frame_interval;
         }
+        self.set_times_of_shaking();
         if let Some(safety_factor) = self.time.safety_factor {
             let mut problems = Vec::new();
             self.check_all_but_step(&mut problems);
@@ -87,6 +89,7 @@ impl Scene {
             self.time.safety_factor = None;
         }
         accept(self.problems_in_range())?;
+        self.forget_periods();
         Ok(self)
     }
 }

@@ -12,14 +12,16 @@ use crate::dem::bodies::SphereRows;
 use crate::dem::profile::{self, StepPart};
 use crate::forces::contact::NormalLaw;
 use crate::forces::friction::TangentialLaw;
+use crate::particles::vector::Vector;
 use crate::simulation::Instability;
 use std::ops::Range;
 
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
-    /// Evaluates all forces and torques at the present positions and velocities.
-    pub(super) fn evaluate(&mut self) -> Result<(), Instability> {
+    /// Evaluates all forces and torques at the present positions and velocities. They belong to the
+    /// moment `at` of the present step: 0 is its start, 1 its end.
+    pub(super) fn evaluate(&mut self, at: f64) -> Result<(), Instability> {
         self.evaluate_contacts()?;
-        self.apply_effects();
+        self.apply_effects(at);
         Ok(())
     }
 
@@ -82,16 +84,18 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         self.add_rolling();
     }
 
-    /// Evaluates all forces and moves all spheres. Returns the first sphere beyond its speed limit.
+    /// Evaluates all forces, of the moment `at` as in [`evaluate`](Self::evaluate), and moves all
+    /// spheres. Returns the first sphere beyond its speed limit.
     ///
     /// If an overlap is too deep in a large scene, its spheres are moved nevertheless, for any
     /// number of threads.
     pub(super) fn evaluate_and_move(
         &mut self,
+        at: f64,
         motion: Motion<'_>,
     ) -> Result<FirstTooFast, Instability> {
         self.hold_near()?;
-        self.prepare_effects();
+        self.prepare_effects(at);
         let too_fast = match motion {
             Motion {
                 kicks,
@@ -111,42 +115,51 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         Ok(too_fast)
     }
 
-    /// Evaluates forces and torques of the effects alone.
-    pub(super) fn evaluate_effects(&mut self) {
+    /// Evaluates forces and torques of the effects alone, of the moment `at` as in
+    /// [`evaluate`](Self::evaluate).
+    pub(super) fn evaluate_effects(&mut self, at: f64) {
         self.particles.clear_forces();
-        self.apply_effects();
+        self.apply_effects(at);
     }
 
-    fn apply_effects(&mut self) {
-        self.prepare_effects();
+    fn apply_effects(&mut self, at: f64) {
+        self.prepare_effects(at);
         let effects = self.setup.effects.len();
         if self.ledger.is_none() {
             self.act(0..effects);
             return;
         }
-        let (particles, all) = (&self.particles, self.setup.effects.iter());
-        let potential = all.take_while(|(_, it)| it.energy(particles).is_some());
-        let potential = potential.count();
-        self.act(0..potential);
+        let (particles, all) = (&self.particles, &self.setup.effects);
+        let potential = all
+            .iter()
+            .take_while(|(_, it)| it.energy(particles).is_some());
+        let after_potential = all.iter().skip(potential.count());
+        let shaking = after_potential.map_while(|(_, it)| it.acceleration());
+        let shaking = shaking.fold(Vector::ZERO, |sum, it| sum + it);
+        let uniform = all.iter().take_while(|(_, it)| it.acceleration().is_some());
+        let uniform = uniform.count();
+        self.act(0..uniform);
         let particles = &self.particles;
         let before = [particles.force.clone(), particles.torque.clone()];
-        self.act(potential..effects);
+        self.act(uniform..effects);
         if let Some(ledger) = &mut self.ledger {
-            ledger
-                .books
-                .note_air([&before[0], &before[1]], &self.particles);
+            let books = &mut ledger.books;
+            books.note_shaking(shaking);
+            books.note_air([&before[0], &before[1]], &self.particles);
         }
     }
 
-    /// Prepares the effects for the present positions.
-    pub(super) fn prepare_effects(&mut self) {
+    /// Prepares the effects for the present positions and a moment of the present step.
+    fn prepare_effects(&mut self, at: f64) {
+        // From the number of the step: a sum of steps would depend on where a run was interrupted.
+        let time = (self.step.number as f64 - 1.0 + at) * self.setup.dt;
         if self.setup.shielded {
             let (near, particles) = (&mut self.neighbours.near, &self.particles);
             near.count_shielding(self.level, particles);
             self.mark(StepPart::Shield);
         }
         for (place, effect) in &mut self.setup.effects {
-            effect.prepare(self.neighbours.near.shielding());
+            effect.prepare(time, self.neighbours.near.shielding());
             profile::mark(&mut self.profile, StepPart::Effect(*place));
         }
     }

@@ -152,7 +152,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     /// that contacts do not load their springs.
     fn evaluate_start(&mut self) -> Result<(), Instability> {
         let loading = std::mem::replace(&mut self.loading, Loading::present(0.0));
-        let result = self.evaluate();
+        let result = self.evaluate(0.0);
         self.loading = loading;
         result
     }
@@ -163,18 +163,19 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         let dt = self.setup.dt;
         let too_fast = if self.ledger.is_some() {
             // The energy balance reads the spheres between kick and drift.
-            self.evaluate()?;
+            self.evaluate(0.0)?;
             let too_fast = self.kick(dt);
             self.note_kick(dt);
             self.drift(dt);
             too_fast
         } else {
-            self.evaluate_and_move(Motion {
+            let motion = Motion {
                 kicks: &[dt],
                 drift: Some(dt),
                 // Others read the forces of the last step.
                 clear: next == Next::Step && self.neighbours.list.is_some(),
-            })?
+            };
+            self.evaluate_and_move(0.0, motion)?
         };
         self.check_speeds(too_fast)
     }
@@ -195,7 +196,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             self.drift(dt);
         }
         if self.ledger.is_some() {
-            self.evaluate()?;
+            self.evaluate(1.0)?;
             let too_fast = self.kick(half);
             self.note_kick(half);
             return self.check_speeds(too_fast);
@@ -213,7 +214,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                 ..Motion::NONE
             },
         };
-        let too_fast = self.evaluate_and_move(motion)?;
+        let too_fast = self.evaluate_and_move(1.0, motion)?;
         self.step.first_half_done = begins_next;
         self.check_speeds(too_fast)
     }
@@ -244,7 +245,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         }
         self.drive(0.0, 1.0);
         self.kick(half);
-        self.evaluate()?;
+        self.evaluate(0.5)?;
         self.before.put_back(&mut self.particles);
         self.drive(0.0, 1.0);
         let too_fast = self.kick(dt);

@@ -1,4 +1,4 @@
-//! The energy balance: the work of damping, of tangential forces and of the air.
+//! The energy balance: the work of damping, of tangential forces, of the air and of shaking.
 //!
 //! A kick by a force F turns v into v' and adds F (v + v') / 2 dt to the kinetic energy, exactly.
 //! So the work is summed kick by kick, from the forces that the kicks use. The residual of the
@@ -30,6 +30,8 @@ pub(in crate::dem) struct LedgerWork {
     pub(in crate::dem) tangential: f64,
     /// Of the air, including the damping of spins.
     pub(in crate::dem) air: f64,
+    /// Of the shaking.
+    pub(in crate::dem) shaking: f64,
     /// Energy of spheres that came in, minus the energy of spheres that left.
     pub(in crate::dem) brought: f64,
 }
@@ -44,6 +46,8 @@ pub(super) struct Books {
     tangential_torque: Vec<Vector>,
     air: Vec<Vector>,
     air_torque: Vec<Vector>,
+    /// The latest acceleration by the shaking (m/s2).
+    shaking: Vector,
 }
 
 impl Books {
@@ -123,6 +127,11 @@ impl Books {
         self.tangential_torque[i] += torque;
     }
 
+    /// Notes the acceleration (m/s2) of all spheres by the shaking.
+    pub(super) fn note_shaking(&mut self, acceleration: Vector) {
+        self.shaking = acceleration;
+    }
+
     /// Notes what the effects of the air added to forces and torques.
     pub(super) fn note_air(&mut self, before: [&[Vector]; 2], particles: &Particles) {
         let after = [&particles.force, &particles.torque];
@@ -141,6 +150,7 @@ impl Books {
         self.work.damping += self.damping[i].dot(way);
         self.work.tangential += self.tangential[i].dot(way);
         self.work.air += self.air[i].dot(way);
+        self.work.shaking += particles.mass[i] * self.shaking.dot(way);
         if particles.rotate() {
             let back = particles.torque[i] * (particles.inverse_inertia[i] * half);
             let turn = (particles.spin[i] - back) * dt;

@@ -111,19 +111,20 @@ impl Moves<'_> {
     ) -> Found {
         let mut found = Found::default();
         debug_assert!(self.kicks.len() <= found.too_fast.len());
-        // Gravity alone needs no blocks of columns.
-        let alone = match self.effects {
-            [(place, effect)] => effect
-                .acceleration()
-                .map(|it| (it, StepPart::Effect(*place))),
-            _ => None,
-        };
+        // Gravity and shaking alone need no blocks of columns.
+        let mut effects = self.effects.iter();
+        let is_uniform = effects.all(|(_, effect)| effect.acceleration().is_some());
         while spheres.len() > 0 {
             let mut some = spheres.split(SPHERES_AT_ONCE);
-            if let Some((acceleration, part)) = alone {
-                fearless_simd::dispatch!(level, simd => accelerate(simd, &mut some, acceleration));
-                profile::mark(profile, part);
-            } else if !self.effects.is_empty() {
+            if is_uniform {
+                for (place, effect) in self.effects {
+                    let Some(uniform) = effect.acceleration() else {
+                        continue;
+                    };
+                    fearless_simd::dispatch!(level, simd => accelerate(simd, &mut some, uniform));
+                    profile::mark(profile, StepPart::Effect(*place));
+                }
+            } else {
                 fearless_simd::dispatch!(level, simd => {
                     self.act(simd, &mut some, bodies, asked, level, profile);
                 });

@@ -17,7 +17,8 @@ impl Fastest {
     pub(in crate::dem) fn of(scene: &Scene) -> Self {
         let start = start_speed(scene);
         let (reach, open_outward) = reach(scene);
-        let of_effects = scene.dem.effects.fastest(reach);
+        let effects = &scene.dem.effects;
+        let of_effects = effects.fastest(reach);
         let mut fall = Fall::of(scene);
         if fall.open.is_some()
             && let Some(terminal) = terminal_speed(scene)
@@ -38,9 +39,11 @@ impl Fastest {
         let of_paths = scene.dem.driven.iter().map(Driven::fastest);
         let of_effects = of_paths.fold(of_effects, f64::max);
         let impact = start.max(fallen(fall.impact)).max(of_effects);
+        let motion = impact.max(fallen(fall.motion));
+        let shaken = effects.fastest_change_by_shaking();
         Self {
-            impact,
-            motion: impact.max(fallen(fall.motion)),
+            impact: impact + shaken,
+            motion: motion + shaken,
             open: fall.open.or(open_outward),
         }
     }

@@ -26,7 +26,7 @@ pub use crate::forces::limit::Limit;
 pub use standing::StepMargin;
 
 use super::overlap::deepest_at_start;
-use crate::forces::limit::{DISPLACEMENT, Regime, Scheme};
+use crate::forces::limit::{DISPLACEMENT, LARGEST_SWING, Regime, Scheme};
 use crate::scene::{Driven, Integrator, Scene, Spheres, Start};
 use fall::Open;
 use fastest::Fastest;
@@ -39,7 +39,8 @@ use std::cell::LazyCell;
 /// The fall is free, along gravity, from the highest start to the farthest wall or to the lowest
 /// fixed or driven sphere. If nothing stands there, it is the terminal speed under drag plus the
 /// speed of the air. If nothing bounds it, it includes only the known speeds, and
-/// [`unbounded_speed`] gives the reason.
+/// [`unbounded_speed`] gives the reason. Shaking adds the most that it changes velocities up to the
+/// first impact; later impacts may be faster.
 pub fn fastest_impact(scene: &Scene) -> f64 {
     Fastest::of(scene).impact
 }
@@ -158,11 +159,6 @@ pub fn limits(scene: &Scene) -> Vec<Limit> {
     });
     limits
 }
-
-/// Largest phase angle (rad) of a driven sphere's oscillation in one step. A ball thrown up by a
-/// plate at four times gravity bounces 5 % lower on average with steps of this angle and 20 % lower
-/// with twice the angle; with steps of half a period it stays at rest (restitution 0.8).
-const LARGEST_SWING: f64 = 0.5;
 
 /// The limit from the fastest oscillation of a driven sphere; infinite if there is none.
 fn period_of_driven(driven: &[Driven]) -> Limit {

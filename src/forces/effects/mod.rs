@@ -8,6 +8,7 @@ mod gravity;
 mod magnus;
 mod one_body;
 mod schiller_naumann;
+mod shaking;
 mod spin_damping;
 mod swirl;
 mod updraught;
@@ -18,6 +19,7 @@ pub use drag::{Drag, DragForm, DragLaw};
 pub use gravity::Gravity;
 pub use magnus::Magnus;
 pub(crate) use one_body::Effect;
+pub use shaking::Shaking;
 pub use spin_damping::SpinDamping;
 pub use swirl::Swirl;
 pub use updraught::Updraught;
@@ -30,9 +32,10 @@ use one_body::OneBody;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// List of all effects, in order of application. Effects with a potential energy come first: the
-/// ledger books the work of all after them as `work_of_air`. Each line: table name, struct, name in
-/// profiles ("" for a table that is not itself a force, like the drag law or the added mass). The
+/// List of all effects, in order of application. Effects with a potential energy come first, then
+/// the shaking, which also accelerates all spheres equally. The ledger books its work as
+/// `work_of_shaking` and the work of all after it as `work_of_air`. Each line: table name, struct,
+/// name in profiles ("" for a table that is not itself a force, like the drag law or the added mass). The
 /// doc comment appears in the reference of keys, so it gives the formula.
 macro_rules! effects {
     ($($(#[doc = $description:literal])+ $table:ident: $keys:ident = $name:literal,)+) => {
@@ -74,6 +77,9 @@ effects! {
     /// Buoyancy: the weight of the displaced fluid, against gravity, F = -rho_fluid V g. Absent:
     /// none.
     buoyancy: Buoyancy = "buoyancy",
+    /// A shaken box: F = m A w^2 sin(w t + p) along a direction, in the frame of the box, less the
+    /// buoyancy of the shaken fluid. Absent: none.
+    shaking: Shaking = "shaking",
     /// Mass C rho V of fluid that moves with each sphere, in impacts too; weights and moments of
     /// inertia do not change. Absent: none.
     added_mass: AddedMass = "",
@@ -200,6 +206,12 @@ impl Effects {
             acceleration: gravity.acceleration * (1.0 - ratio),
             ..gravity.clone()
         })
+    }
+
+    /// The most that the shaking changes the velocity of a free sphere (m/s).
+    pub(crate) fn fastest_change_by_shaking(&self) -> f64 {
+        let (shaking, gravity) = (self.shaking.as_ref(), self.gravity.as_ref());
+        shaking.map_or(0.0, |it| it.fastest_change(gravity))
     }
 
     /// Added mass over mass of spheres of a density (kg/m3).
@@ -339,9 +351,9 @@ mod tests {
     use super::*;
     use crate::particles::Particles;
 
-    /// The ledger books the work of the effects after those with a potential energy.
+    /// The ledger tells them apart by their places.
     #[test]
-    fn effects_with_a_potential_energy_come_first() {
+    fn effects_with_a_potential_energy_come_first_and_then_the_shaking() {
         let text = std::fs::read_to_string("tests/good/everything.toml").unwrap();
         let all: Effects = toml::from_str(&text).unwrap();
         assert!(all.keys().all(|keys| keys.is_some()), "a table is missing");
@@ -359,5 +371,7 @@ mod tests {
         assert_eq!(without.len(), Effects::COUNT);
         assert!(without.contains(&false) && without.contains(&true));
         assert!(without.is_sorted(), "{without:?}");
+        let uneven = built.iter().map(|(_, it)| it.acceleration().is_none());
+        assert!(uneven.is_sorted());
     }
 }

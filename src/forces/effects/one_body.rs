@@ -7,9 +7,10 @@ use fearless_simd::Level;
 
 /// An effect adds to the forces and torques of the spheres.
 pub(crate) trait Effect: Send + Sync {
-    /// Prepares a step. `shielding` is, for each sphere, the number of lower spheres that shield it
-    /// from the updraught; empty in a scene without updraught.
-    fn prepare(&mut self, shielding: &[u32]);
+    /// Prepares the forces of a moment, `time` (s) after the start. `shielding` is, for each
+    /// sphere, the number of lower spheres that shield it from the updraught; empty in a scene
+    /// without updraught.
+    fn prepare(&mut self, time: f64, shielding: &[u32]);
 
     /// Adds its forces and torques to a block of spheres.
     fn apply(&self, level: Level, bodies: &mut Bodies);
@@ -17,8 +18,8 @@ pub(crate) trait Effect: Send + Sync {
     /// Which columns it reads.
     fn asks(&self) -> Asked;
 
-    /// The acceleration (m/s2), if it only accelerates all spheres equally; the block loop is then
-    /// skipped.
+    /// The acceleration (m/s2) at the moment that was prepared, if it only accelerates all spheres
+    /// equally; where all effects do, the block loop is skipped.
     fn acceleration(&self) -> Option<Vector>;
 
     /// Reorders per-sphere arrays after the spheres were sorted.
@@ -34,7 +35,7 @@ pub(super) trait OneBody: Send + Sync {
     const ASKS: Asked;
 
     /// As [`Effect::prepare`].
-    fn prepare(&mut self, _shielding: &[u32]) {}
+    fn prepare(&mut self, _time: f64, _shielding: &[u32]) {}
 
     /// As [`Effect::apply`]; implementations must be inlined always.
     fn add(&self, bodies: &mut Bodies);
@@ -55,8 +56,8 @@ pub(super) trait OneBody: Send + Sync {
 }
 
 impl<E: OneBody> Effect for E {
-    fn prepare(&mut self, shielding: &[u32]) {
-        OneBody::prepare(self, shielding);
+    fn prepare(&mut self, time: f64, shielding: &[u32]) {
+        OneBody::prepare(self, time, shielding);
     }
 
     fn apply(&self, level: Level, bodies: &mut Bodies) {

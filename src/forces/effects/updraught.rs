@@ -143,7 +143,7 @@ impl<K: DragKernel> OneBody for UpdraughtForce<K> {
         self.coefficients.reorder(order);
     }
 
-    fn prepare(&mut self, shielding: &[u32]) {
+    fn prepare(&mut self, _: f64, shielding: &[u32]) {
         let most = shielding.iter().copied().max().unwrap_or(0) as usize;
         while self.powers.len() <= most {
             self.powers

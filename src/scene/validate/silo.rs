@@ -77,6 +77,10 @@ impl Scene {
         }
         let off = |place: &[f64; 3]| place[1] != 0.0;
         let place = format!("set the second number to 0, {shape}");
+        if effects.shaking.iter().any(|it| off(&it.direction)) {
+            let path = "shaking.direction".to_owned();
+            refuse(path, "this leads out of it", &place);
+        }
         match &self.start {
             Start::Feed {
                 position, velocity, ..

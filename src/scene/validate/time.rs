@@ -7,11 +7,14 @@ use crate::scene::{Integrator, Output, Scene, Start, leaf, may_hold};
 /// Two times count as commensurate if their ratio is a whole number within this.
 const ROUNDING: f64 = 1e-6;
 
+const FRAME_INTERVAL: &str = "time.frame_interval";
+
 /// Largest number of frames: their observables are held in memory.
 pub(super) const MOST_FRAMES: f64 = 1e7;
 
 impl Scene {
     pub(super) fn check_times(&self, problems: &mut Vec<Problem>) {
+        self.check_times_of_shaking(problems);
         let time = &self.time;
         let interval = time.frame_interval;
         if !multiple(time.duration, interval) {
@@ -58,19 +61,84 @@ impl Scene {
         }
         for (path, interval) in self.intervals_of_steps() {
             if !multiple(interval, dt) {
+                if path == FRAME_INTERVAL && self.times_of_shaking().is_some() {
+                    problems.push(not_dividing(dt, interval));
+                    continue;
+                }
                 problems.push(not_multiple(path, interval, "time.dt", dt));
             }
         }
     }
 
+    /// The interval of frames and the duration (s), if the scene gives them in periods of its
+    /// shaking.
+    fn times_of_shaking(&self) -> Option<[f64; 2]> {
+        let effects = &self.dem.effects;
+        let shaking = effects.shaking.as_ref()?;
+        let (interval, duration) = shaking.times(effects.gravity.as_ref())?;
+        Some([interval, duration.unwrap_or(self.time.duration)])
+    }
+
+    /// Sets the times that the scene gives in periods of its shaking. A step that divides them but
+    /// for its last digits becomes exact, so that frames keep their phases in long runs.
+    pub(crate) fn set_times_of_shaking(&mut self) {
+        let Some([interval, duration]) = self.times_of_shaking() else {
+            return;
+        };
+        let time = &mut self.time;
+        (time.frame_interval, time.duration) = (interval, duration);
+        if multiple(interval, time.dt) {
+            time.dt = interval / libm::round(interval / time.dt);
+        }
+    }
+
+    /// A scene made by hand may hold other times than its keys say.
+    fn check_times_of_shaking(&self, problems: &mut Vec<Problem>) {
+        let present = [self.time.frame_interval, self.time.duration];
+        if self.times_of_shaking().is_some_and(|it| it != present) {
+            let message = "`time` does not hold the times that [shaking] gives in periods";
+            let help = "remove `frames_per_period` and `periods`, or use `Scene::with_chosen_step`";
+            let path = "shaking.frames_per_period";
+            problems.push(Problem::new(path, message).help(help));
+        }
+    }
+
+    /// Removes the keys that [`set_times_of_shaking`](Self::set_times_of_shaking) reads.
+    pub(crate) fn forget_periods(&mut self) {
+        if let Some(shaking) = &mut self.dem.effects.shaking {
+            (shaking.frames_per_period, shaking.periods) = (None, None);
+        }
+    }
+
     /// The times (s) that must be whole numbers of steps, by their keys.
     pub(crate) fn intervals_of_steps(&self) -> Vec<(&'static str, f64)> {
-        let mut intervals = vec![("time.frame_interval", self.time.frame_interval)];
+        let mut intervals = vec![(FRAME_INTERVAL, self.time.frame_interval)];
         if let Start::Feed { interval, .. } = self.start {
             intervals.push(("start.interval", interval));
         }
         intervals
     }
+}
+
+/// A step (s) that does not divide the time (s) between frames at chosen phases of the shaking.
+fn not_dividing(dt: f64, interval: f64) -> Problem {
+    let steps = interval / dt;
+    let message = format!(
+        "`time.dt` = {} s must divide the time between frames, a period of the shaking over \
+         `shaking.frames_per_period` = {} s, but there would be {} steps",
+        number(dt),
+        number(interval),
+        rounded(steps)
+    );
+    let below = libm::floor(steps);
+    let near = |whole: f64| accepted(interval / whole, |it| multiple(interval, it));
+    let steps = [below + 1.0, below].into_iter().filter(|it| *it >= 1.0);
+    let steps: Vec<String> = steps
+        .filter_map(near)
+        .map(|dt| format!("`dt = {dt}`"))
+        .collect();
+    let help = format!("use {} or `dt = \"auto\"`", steps.join(" or "));
+    Problem::new("time.dt", message).help(help)
 }
 
 /// Whether `time` is a whole multiple of `unit`, at least 1.

@@ -1,7 +1,7 @@
 //! The library: a run in parts has the bits of a whole one.
 
 use super::bench::whole;
-use crate::scenes::{frictions, state, tank, water};
+use crate::scenes::{frictions, shaken, state, tank, water};
 use crate::support::{Workplace, silo_file};
 use phase::dem::DemSimulation;
 use phase::record::{MilestoneKind, Outcome, RunRecord};
@@ -96,6 +96,14 @@ fn a_tank_with_every_effect_goes_on_with_the_same_bits() {
         let mut scene = water(integrator);
         scene.time.duration = 0.12;
         scene.output.ledger = integrator == Integrator::SynchronisedVerlet;
+        assert_same_bits(scene, 37);
+    }
+    // Without the ledger the acceleration of velocity Verlet is in the forces alone.
+    for (integrator, ledger) in
+        (Integrator::ALL.into_iter()).flat_map(|it| [(it, false), (it, true)])
+    {
+        let mut scene = shaken(integrator);
+        scene.output.ledger = ledger;
         assert_same_bits(scene, 37);
     }
 }

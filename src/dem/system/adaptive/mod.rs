@@ -100,7 +100,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             self.refresh()?;
         }
         self.clear_contacts_in_books();
-        self.evaluate_effects();
+        self.evaluate_effects(0.0);
         let reach = work.find_reach(&self.particles, dt);
         self.hold_for(reach)?;
         let Particles {
@@ -110,7 +110,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             *position += velocity * (0.5 * dt);
         }
         self.kick(0.5 * dt);
-        self.evaluate_effects();
+        self.evaluate_effects(0.5);
         work.force.clone_from(&self.particles.force);
         work.torque.clone_from(&self.particles.torque);
         work.start.put_back(&mut self.particles);
