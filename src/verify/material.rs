@@ -48,11 +48,6 @@ impl Material {
             / (3.0 * (1.0 - self.poisson_ratio * self.poisson_ratio))
     }
 
-    /// Overlap at which the elastic force of an effective radius is `force` (m).
-    pub(super) fn overlap(&self, effective_radius: f64, force: f64) -> f64 {
-        libm::pow(force / self.stiffness(effective_radius), 2.0 / 3.0)
-    }
-
     /// The contact law.
     pub(super) fn contact(&self) -> Contact {
         Contact::Hertz(Hertz {
