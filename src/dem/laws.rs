@@ -88,6 +88,10 @@ mod tests {
             }),
             json!({ "law": "linear", "stiffness": 100.0, "damping": 0.02 }),
             json!({ "law": "silbert", "stiffness": 1e7, "damping": 1e3 }),
+            json!({
+                "law": "tsuji", "young_modulus": 1e7, "poisson_ratio": 0.3, "restitution": 0.5
+            }),
+            json!({ "law": "hooke", "stiffness": 100.0, "damping_rate": 50.0 }),
         ];
         let frictions = [
             json!({ "law": "spin", "coefficient": 0.3 }),
@@ -96,6 +100,7 @@ mod tests {
             json!({ "law": "mindlin", "coefficient": 0.3 }),
             json!({ "law": "mindlin-deresiewicz", "coefficient": 0.3 }),
             json!({ "law": "silbert", "coefficient": 0.3, "stiffness": 1e7 }),
+            json!({ "law": "hooke", "coefficient": 0.3, "stiffness": 60.0 }),
         ];
         let mut together = 0;
         for contact in &contacts {
@@ -116,6 +121,6 @@ mod tests {
                 assert_eq!(built.is_ok(), allowed, "{contact} {friction}");
             }
         }
-        assert_eq!(together, 7);
+        assert_eq!(together, 12);
     }
 }

@@ -39,8 +39,9 @@ pub use columns::FurtherColumn;
 pub(crate) use dem::MOST_HOPPER_SPHERES;
 pub use dem::{
     Contact, ContactDrag, Coulomb, CundallStrack, DemScene, Door, Driven, FixedSphere,
-    FixedSpheres, Friction, Geometry, Guards, Hertz, Hopper, LengthUnit, Linear, Mindlin,
-    MindlinDeresiewicz, Neighbours, Outlet, Rest, Rolling, Silbert, SilbertFriction, Spin,
+    FixedSpheres, Friction, Geometry, Guards, Hertz, Hooke, HookeFriction, Hopper, LengthUnit,
+    Linear, Mindlin, MindlinDeresiewicz, Neighbours, Outlet, Rest, Rolling, Silbert,
+    SilbertFriction, Spin, Tsuji,
 };
 pub use file_kind::FileKind;
 pub(crate) use files::in_start_file;

@@ -1,6 +1,7 @@
 //! Further columns of spheres at given places, with given velocities.
 
-use super::bench::{Bench, Material, downward, unguarded};
+use super::bench::{Bench, downward, unguarded};
+use super::material::Material;
 use super::{CaseFamily, MeasuredValues, VerifyError};
 use crate::dem::DemSimulation;
 use crate::observe::Observer;

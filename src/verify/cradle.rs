@@ -1,6 +1,7 @@
 //! Newton's cradle: spheres in a row, hit by the first of them.
 
-use super::bench::{Bench, Material, moving, unguarded};
+use super::bench::{Bench, moving, unguarded};
+use super::material::Material;
 use super::{CaseFamily, MeasuredValues, VerifyError, numbered};
 use crate::dem::DemSimulation;
 use crate::particles::Particles;

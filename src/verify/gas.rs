@@ -1,6 +1,7 @@
 //! An elastic gas in the tank.
 
-use super::bench::{Bench, Material, downward, unguarded};
+use super::bench::{Bench, downward, unguarded};
+use super::material::Material;
 use super::{CaseFamily, MeasuredValues, VerifyError, named};
 use crate::dem::DemSimulation;
 use crate::scene::{DemScene, Effects, Scene, Spheres, Start, Tank};

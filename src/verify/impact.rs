@@ -1,6 +1,7 @@
 //! A sphere hits a sphere or a wall, head-on or obliquely, with or without spin.
 
-use super::bench::{Bench, Material, floor, moving, reduced, unguarded};
+use super::bench::{Bench, floor, moving, reduced, unguarded};
+use super::material::Material;
 use super::{CaseFamily, MeasuredValues, VerifyError, named};
 use crate::dem::{DemSimulation, timestep};
 use crate::particles::Particles;

@@ -1,6 +1,7 @@
 //! A sphere rolls or slides down an incline.
 
-use super::bench::{AnyMaterial, Bench, at, floor, unguarded};
+use super::bench::{Bench, at, floor, unguarded};
+use super::material::AnyMaterial;
 use super::{CaseFamily, MeasuredValues, VerifyError, named};
 use crate::dem::DemSimulation;
 use crate::scene::{DemScene, Effects, Friction, Gravity, Scene};

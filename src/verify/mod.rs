@@ -14,6 +14,7 @@
 //! ```
 
 mod air_force;
+mod attractive_impact;
 mod bench;
 mod columns;
 mod convergence;
@@ -24,10 +25,10 @@ mod flight;
 mod gas;
 mod impact;
 mod incline;
+mod material;
 mod oscillation;
 mod rolling;
 mod rolling_resistance;
-mod silbert;
 mod spot_flow;
 mod stack;
 mod step_limit;
@@ -35,7 +36,7 @@ mod tangential_loop;
 mod tripod;
 mod wall_orbit;
 
-pub use bench::{AnyMaterial, Material, SilbertMaterial};
+pub use material::{AnyMaterial, HookeMaterial, Material, SilbertMaterial, TsujiMaterial};
 
 use crate::cpu_time;
 use crate::dem::DemBuildError;
@@ -53,7 +54,7 @@ use std::sync::atomic::AtomicBool;
 const TABLES: [&str; 20] = [
     include_str!("impact.toml"),
     include_str!("dashpot.toml"),
-    include_str!("silbert.toml"),
+    include_str!("attractive_impact.toml"),
     include_str!("tangential_loop.toml"),
     include_str!("cradle.toml"),
     include_str!("rolling.toml"),
@@ -132,8 +133,8 @@ pub enum CaseSetup {
     Impact(impact::ImpactCase),
     /// Two discs, or a disc and a fixed one, hit each other under the linear contact.
     Dashpot(dashpot::Dashpot),
-    /// A sphere hits another one, or something fixed, under the contact of Silbert et al.
-    SilbertImpact(silbert::SilbertImpact),
+    /// A sphere hits another one, or something fixed, under a contact that attracts at its end.
+    AttractiveImpact(attractive_impact::AttractiveImpact),
     /// A sphere is pressed on the floor and moved back and forth.
     TangentialLoop(tangential_loop::TangentialLoop),
     /// Spheres in a row, hit by the first of them.
@@ -175,7 +176,7 @@ impl CaseSetup {
         match self {
             Self::Impact(it) => it,
             Self::Dashpot(it) => it,
-            Self::SilbertImpact(it) => it,
+            Self::AttractiveImpact(it) => it,
             Self::TangentialLoop(it) => it,
             Self::Cradle(it) => it,
             Self::Rolling(it) => it,

@@ -1,6 +1,7 @@
 //! A sphere on the floor oscillates about its rest position.
 
-use super::bench::{AnyMaterial, Bench, downward, floor, moving, unguarded};
+use super::bench::{Bench, downward, floor, moving, unguarded};
+use super::material::AnyMaterial;
 use super::{CaseFamily, MeasuredValues, VerifyError, named};
 use crate::dem::DemSimulation;
 use crate::scene::{DemScene, Effects, Friction, Scene};

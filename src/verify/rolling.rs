@@ -1,6 +1,7 @@
 //! A sphere slides on the floor until it rolls.
 
-use super::bench::{AnyMaterial, Bench, downward, floor, moving, unguarded};
+use super::bench::{Bench, downward, floor, moving, unguarded};
+use super::material::AnyMaterial;
 use super::{CaseFamily, MeasuredValues, VerifyError, named};
 use crate::dem::DemSimulation;
 use crate::particles::Particles;

@@ -1,6 +1,7 @@
 //! A sphere rolls against rolling resistance, on the level or on an incline.
 
-use super::bench::{AnyMaterial, Bench, floor, moving, unguarded};
+use super::bench::{Bench, floor, moving, unguarded};
+use super::material::AnyMaterial;
 use super::{CaseFamily, MeasuredValues, VerifyError, named};
 use crate::dem::DemSimulation;
 use crate::scene::{DemScene, Effects, Friction, Gravity, Rolling, Scene, StartSphere};

@@ -1,6 +1,7 @@
 //! A column of spheres at rest.
 
-use super::bench::{Bench, Material, at, downward, floor, unguarded};
+use super::bench::{Bench, at, downward, floor, unguarded};
+use super::material::Material;
 use super::{CaseFamily, MeasuredValues, VerifyError, named, numbered};
 use crate::dem::DemSimulation;
 use crate::scene::{DemScene, Effects, Scene};

@@ -1,6 +1,7 @@
 //! Limits of the time step, in closed form.
 
-use super::bench::{Bench, Material, moving, unguarded};
+use super::bench::{Bench, moving, unguarded};
+use super::material::Material;
 use super::{CaseFamily, MeasuredValues, VerifyError};
 use crate::dem::timestep;
 use crate::scene::{DemScene, Scene};

@@ -1,6 +1,7 @@
 //! A sphere is pressed on the floor or on another sphere, and moved back and forth along it.
 
-use super::bench::{AnyMaterial, Bench, at, floor, reduced, unguarded};
+use super::bench::{Bench, at, floor, reduced, unguarded};
+use super::material::AnyMaterial;
 use super::{CaseFamily, MeasuredValues, VerifyError, named};
 use crate::dem::DemSimulation;
 use crate::particles::vector::Vector;

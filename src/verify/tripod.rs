@@ -1,6 +1,7 @@
 //! A sphere at rest on three others in a cylinder.
 
-use super::bench::{Bench, Material, at, downward, unguarded};
+use super::bench::{Bench, at, downward, unguarded};
+use super::material::Material;
 use super::{CaseFamily, MeasuredValues, VerifyError, named};
 use crate::dem::DemSimulation;
 use crate::forces::contact::{HertzLaw, NormalLaw};

@@ -1,6 +1,7 @@
 //! A sphere that rotating air drives along the cylinder.
 
-use super::bench::{Bench, Material, at, unguarded};
+use super::bench::{Bench, at, unguarded};
+use super::material::Material;
 use super::{CaseFamily, MeasuredValues, VerifyError, named};
 use crate::dem::DemSimulation;
 use crate::particles::vector::Vector;

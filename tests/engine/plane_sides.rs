@@ -248,7 +248,7 @@ fn laws_that_do_not_go_together_are_refused() {
         (
             silbert,
             "law = 'mindlin', coefficient = 0.3",
-            "goes with the hertz contact only",
+            "goes with the hertz or tsuji contact only",
         ),
         (
             linear,

@@ -15,7 +15,7 @@ enum Row {
 }
 use Row::{Limit, None};
 
-const ROWS: [(&str, Row); 60] = [
+const ROWS: [(&str, Row); 66] = [
     ("start.random.speed", Limit("displacement", HERTZ)),
     ("start.random.spin", Limit("Magnus lift", HERTZ)),
     ("start.list.spheres.velocity", Limit("displacement", LISTED)),
@@ -38,6 +38,11 @@ const ROWS: [(&str, Row); 60] = [
     ("contact.linear.damping", Limit("damped contact", FED)),
     ("contact.silbert.stiffness", Limit("contact", SILBERT)),
     ("contact.silbert.damping", Limit("damped contact", SILBERT)),
+    ("contact.tsuji.young_modulus", Limit("contact", TSUJI)),
+    // No second in its unit, but the damping follows from it.
+    ("contact.tsuji.restitution", Limit("damped contact", TSUJI)),
+    ("contact.hooke.stiffness", Limit("contact", HOOKE)),
+    ("contact.hooke.damping_rate", Limit("damped contact", HOOKE)),
     (
         "friction.coulomb.regularisation",
         Limit("regularised friction", HERTZ),
@@ -57,6 +62,11 @@ const ROWS: [(&str, Row); 60] = [
     (
         "friction.silbert.damping",
         Limit("sticking contact", SILBERT),
+    ),
+    ("friction.hooke.stiffness", Limit("sticking contact", HOOKE)),
+    (
+        "friction.hooke.damping_rate",
+        Limit("sticking contact", HOOKE),
     ),
     (
         "door.opens",
@@ -163,6 +173,22 @@ const FED: &str = "
 const SILBERT: &str = "
     contact = { law = 'silbert', stiffness = 2e6, damping = 1e4 }
     friction = { law = 'silbert', coefficient = 0.3, stiffness = 6e5, damping = 5e3 }
+    spheres = { count = 2, density = 1e4, radius = 0.004 }
+    tank = { radius = 0.06, floor = 0.0 }
+    start = { kind = 'random', z_min = 0.1, z_max = 0.2 }
+    gravity = { acceleration = 9.8 }";
+
+const TSUJI: &str = "
+    contact = { law = 'tsuji', young_modulus = 2e6, poisson_ratio = 0.3, restitution = 5e-4 }
+    friction = { law = 'mindlin', coefficient = 0.3 }
+    spheres = { count = 2, density = 1e4, radius = 0.004 }
+    tank = { radius = 0.06, floor = 0.0 }
+    start = { kind = 'random', z_min = 0.1, z_max = 0.2 }
+    gravity = { acceleration = 9.8 }";
+
+const HOOKE: &str = "
+    contact = { law = 'hooke', stiffness = 1e3, damping_rate = 100.0 }
+    friction = { law = 'hooke', coefficient = 0.3, stiffness = 300.0, damping_rate = 50.0 }
     spheres = { count = 2, density = 1e4, radius = 0.004 }
     tank = { radius = 0.06, floor = 0.0 }
     start = { kind = 'random', z_min = 0.1, z_max = 0.2 }

@@ -93,10 +93,18 @@ mod tests {
         "law = 'hertz', young_modulus = 2e6, poisson_ratio = 0.3, dissipation_time = 1e-4";
     const LINEAR: &str = "law = 'linear', stiffness = 100.0, damping = 0.05";
     const COULOMB: &str = "law = 'coulomb', coefficient = 0.3, regularisation = 1.0";
-    const LAWS: [(&str, &str); 5] = [
+    const LAWS: [(&str, &str); 7] = [
         (
             "law = 'silbert', stiffness = 2e6, damping = 1e4",
             "law = 'silbert', coefficient = 0.3, stiffness = 6e5, damping = 5e3",
+        ),
+        (
+            "law = 'hooke', stiffness = 100.0, damping_rate = 50.0",
+            "law = 'hooke', coefficient = 0.3, stiffness = 80.0, damping_rate = 25.0",
+        ),
+        (
+            "law = 'tsuji', young_modulus = 2e6, poisson_ratio = 0.3, restitution = 0.5",
+            "law = 'mindlin', coefficient = 0.3",
         ),
         (HERTZ, COULOMB),
         (HERTZ, "law = 'mindlin', coefficient = 0.3"),

@@ -2,14 +2,13 @@
 
 use super::keys::elastic;
 use super::restitution::dissipation_time_from_restitution;
-use super::{Collision, ContactKeys, Impact, NormalLaw, contact_radius};
+use super::{Collision, ContactKeys, ElasticSolid, NormalLaw, contact_radius};
 use crate::document::{Problem, quantity};
 use crate::forces::limit::{Limit, Regime};
 use crate::forces::one;
 use crate::forces::simplification::Simplification;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use std::f64::consts::PI;
 
 /// Viscoelastic Hertz contact (Brilliantov et al., 1996), never attractive.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -59,10 +58,15 @@ impl Hertz {
             }
         }
     }
+}
 
-    /// The impact of two spheres of one radius (m) and mass (kg) at a relative speed (m/s).
-    fn impact(&self, radius: f64, mass: f64, speed: f64) -> Impact {
-        Impact::of_equal_spheres(radius, mass, self.young_modulus, self.poisson_ratio, speed)
+impl ElasticSolid for Hertz {
+    fn young_modulus(&self) -> f64 {
+        self.young_modulus
+    }
+
+    fn poisson_ratio(&self) -> f64 {
+        self.poisson_ratio
     }
 }
 
@@ -85,34 +89,20 @@ impl ContactKeys for Hertz {
         )
     }
 
-    /// The impact of the two smallest spheres at the fastest speed, or from the deepest overlap at
-    /// the start. A wall or a larger partner is softer: w^2 falls with the effective mass faster
-    /// than it grows with the effective radius.
     fn collisions(&self, regime: &Regime<'_>) -> Vec<Collision> {
-        let (radius, mass) = (regime.smallest_radius, regime.smallest_mass);
-        let impact = self.impact(radius, mass, regime.fastest_impact);
-        let fastest = impact.or_release_from(*regime.deepest_at_start);
-        if fastest.speed <= 0.0 {
+        let Some(fastest) = self.stiffest_impact(regime) else {
             return Vec::new();
-        }
+        };
         let frequency = fastest.angular_frequency();
         // The law's damping at overlap xi: g = K c A sqrt(xi) / m_eff.
         let time = self.dissipation_time(regime.mean_radius, regime.mean_mass);
         let rate = 2.0 / 3.0 * self.dissipation_factor * time * frequency * frequency;
-        vec![Collision::of_impact(&fastest, 0.5 * radius, rate)]
+        let effective_radius = 0.5 * regime.smallest_radius;
+        vec![Collision::of_impact(&fastest, effective_radius, rate)]
     }
 
     fn other_limits(&self, regime: &Regime<'_>) -> Vec<Limit> {
-        let (young_modulus, poisson_ratio) = (self.young_modulus, self.poisson_ratio);
-        let (radius, density) = (regime.smallest_radius, regime.density);
-        vec![Limit {
-            name: "Rayleigh time",
-            seconds: rayleigh_time(radius, density, young_modulus, poisson_ratio),
-            decisive: false,
-            explanation: "pi r sqrt(rho/G) / (0.1631 nu + 0.8766) of the smallest sphere; a \
-                          fifth of it is customary",
-            consequence: None,
-        }]
+        vec![self.rayleigh_limit(regime)]
     }
 
     fn simplifications(&self) -> Vec<Simplification> {
@@ -141,12 +131,10 @@ impl ContactKeys for Hertz {
     }
 }
 
-/// Rayleigh time (s): the time of a surface wave around half a sphere of this radius (m), pi r
-/// sqrt(rho / G) / (0.1631 nu + 0.8766) with the shear modulus G = Y / (2 (1 + nu)) (Thornton and
-/// Randall, 1988; Ning and Ghadiri, 2006).
-pub fn rayleigh_time(radius: f64, density: f64, young_modulus: f64, poisson_ratio: f64) -> f64 {
-    let shear_modulus = young_modulus / (2.0 * (1.0 + poisson_ratio));
-    PI * radius * (density / shear_modulus).sqrt() / (0.1631 * poisson_ratio + 0.8766)
+/// K / sqrt(R_eff) = 2 Y / (3 (1 - nu^2)) (Pa) of partners of the same Young's modulus (Pa) and
+/// Poisson's ratio (Hertz, 1882).
+pub(super) fn hertz_modulus(young_modulus: f64, poisson_ratio: f64) -> f64 {
+    2.0 * young_modulus / (3.0 * (1.0 - poisson_ratio * poisson_ratio))
 }
 
 /// F = K (xi^1.5 + c A sqrt(xi) dxi/dt), never attractive, with
@@ -165,7 +153,7 @@ impl HertzLaw {
     /// dissipation time A (s) and the factor c.
     pub fn new(young_modulus: f64, poisson_ratio: f64, dissipation_time: f64, factor: f64) -> Self {
         Self {
-            modulus: 2.0 * young_modulus / (3.0 * (1.0 - poisson_ratio * poisson_ratio)),
+            modulus: hertz_modulus(young_modulus, poisson_ratio),
             dissipation: factor * dissipation_time,
         }
     }

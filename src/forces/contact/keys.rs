@@ -1,6 +1,6 @@
 //! The table of a contact law in a scene.
 
-use super::{Hertz, Impact, Linear, NormalLaw, Silbert};
+use super::{Hertz, Hooke, Impact, Linear, LinearImpact, NormalLaw, Silbert, Tsuji};
 use crate::document::Problem;
 use crate::forces::limit::{Limit, Regime};
 use crate::forces::simplification::Simplification;
@@ -16,6 +16,8 @@ pub enum Contact {
     Hertz(Hertz),
     Linear(Linear),
     Silbert(Silbert),
+    Tsuji(Tsuji),
+    Hooke(Hooke),
 }
 
 /// Evaluates an expression with the keys of a contact law, whichever law it is.
@@ -25,6 +27,8 @@ macro_rules! with_keys {
             $crate::forces::contact::Contact::Hertz($keys) => $do,
             $crate::forces::contact::Contact::Linear($keys) => $do,
             $crate::forces::contact::Contact::Silbert($keys) => $do,
+            $crate::forces::contact::Contact::Tsuji($keys) => $do,
+            $crate::forces::contact::Contact::Hooke($keys) => $do,
         }
     };
 }
@@ -108,6 +112,21 @@ impl Collision {
             largest_force: impact.largest_force(),
             contact_time: impact.contact_time(),
             contact_radius: (effective_radius * impact.deepest_overlap()).sqrt(),
+        }
+    }
+
+    /// The collision of a linear impact at a relative speed (m/s), under a law without contact
+    /// radius.
+    pub(super) fn of_linear_impact(impact: &LinearImpact, speed: f64) -> Self {
+        let frequency = impact.angular_frequency();
+        Self {
+            effective_mass: impact.effective_mass,
+            speed,
+            frequency,
+            rate: impact.damping_rate(),
+            largest_force: impact.stiffness * speed / frequency,
+            contact_time: impact.contact_time(),
+            contact_radius: 0.0,
         }
     }
 }

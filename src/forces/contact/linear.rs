@@ -57,16 +57,7 @@ impl ContactKeys for Linear {
             stiffness: self.stiffness,
             damping: self.damping,
         };
-        let (frequency, speed) = (impact.angular_frequency(), regime.fastest_impact);
-        vec![Collision {
-            effective_mass: impact.effective_mass,
-            speed,
-            frequency,
-            rate: impact.damping_rate(),
-            largest_force: impact.stiffness * speed / frequency,
-            contact_time: impact.contact_time(),
-            contact_radius: 0.0,
-        }]
+        vec![Collision::of_linear_impact(&impact, regime.fastest_impact)]
     }
 
     fn simplifications(&self) -> Vec<Simplification> {

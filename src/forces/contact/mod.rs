@@ -1,18 +1,25 @@
 //! Normal contact laws, one file each: keys, formula, what limits the time step.
 
+mod elastic_solid;
 mod hertz;
+mod hooke;
 mod impact;
 mod keys;
 mod linear;
 pub mod restitution;
 mod silbert;
+mod tsuji;
 
-pub use hertz::{Hertz, HertzLaw, rayleigh_time};
+pub(crate) use elastic_solid::ElasticSolid;
+pub use elastic_solid::rayleigh_time;
+pub use hertz::{Hertz, HertzLaw};
+pub use hooke::{Hooke, HookeLaw};
 pub use impact::{Impact, LinearImpact};
 pub use keys::Contact;
 pub(crate) use keys::{Collision, ContactKeys, with_keys};
 pub use linear::{ContactDrag, Linear, LinearLaw};
 pub use silbert::{Silbert, SilbertLaw};
+pub use tsuji::{Tsuji, TsujiLaw};
 
 /// Radius sqrt(R_eff xi) (m) of the disc in which partners touch (Hertz, 1882), from the overlap xi
 /// (m) and the effective radius r1 r2 / (r1 + r2) (m; the sphere's own at a flat wall).

@@ -1,9 +1,12 @@
 //! The table of a friction law in a scene, and which contact laws it goes with.
 
 use super::{
-    Coulomb, CundallStrack, Mindlin, MindlinDeresiewicz, SilbertFriction, Spin, TangentialLaw,
+    Coulomb, CundallStrack, HookeFriction, Mindlin, MindlinDeresiewicz, SilbertFriction, Spin,
+    TangentialLaw,
 };
-use crate::forces::contact::{Collision, Contact, ContactKeys, Hertz, Linear, Silbert};
+use crate::forces::contact::{
+    Collision, Contact, ContactKeys, Hertz, Hooke, Linear, Silbert, Tsuji,
+};
 use crate::forces::limit::{Limit, Regime};
 use crate::forces::simplification::Simplification;
 use schemars::JsonSchema;
@@ -22,6 +25,8 @@ pub enum Friction {
     MindlinDeresiewicz(MindlinDeresiewicz),
     #[serde(rename = "silbert")]
     SilbertFriction(SilbertFriction),
+    #[serde(rename = "hooke")]
+    HookeFriction(HookeFriction),
 }
 
 /// The keys of a friction law used with the contact law `C`.
@@ -61,6 +66,11 @@ macro_rules! with_pairs_of_laws {
             (Hertz, Mindlin),
             (Hertz, MindlinDeresiewicz),
             (Silbert, SilbertFriction),
+            (Tsuji, Spin),
+            (Tsuji, Coulomb),
+            (Tsuji, Mindlin),
+            (Tsuji, MindlinDeresiewicz),
+            (Hooke, HookeFriction),
         }
     };
 }
@@ -85,6 +95,7 @@ impl Friction {
             Self::Mindlin(_) => Mindlin::NAME,
             Self::MindlinDeresiewicz(_) => MindlinDeresiewicz::NAME,
             Self::SilbertFriction(_) => SilbertFriction::NAME,
+            Self::HookeFriction(_) => HookeFriction::NAME,
         }
     }
 
@@ -107,6 +118,7 @@ impl Friction {
             Self::Mindlin(law) => Some(law.coefficient),
             Self::MindlinDeresiewicz(law) => Some(law.coefficient),
             Self::SilbertFriction(law) => Some(law.coefficient),
+            Self::HookeFriction(law) => Some(law.coefficient),
         }
     }
 
@@ -120,6 +132,7 @@ impl Friction {
             Self::Mindlin(law) => law.coefficient = coefficient,
             Self::MindlinDeresiewicz(law) => law.coefficient = coefficient,
             Self::SilbertFriction(law) => law.coefficient = coefficient,
+            Self::HookeFriction(law) => law.coefficient = coefficient,
         }
         law
     }

@@ -4,14 +4,14 @@ use super::{
     Coulomb, FrictionKeys, Keeps, LoadedSpring, Spring, SpringAtRadius, TangentialLaw, Touch,
 };
 use crate::document::quantity;
-use crate::forces::contact::contact_radius;
-use crate::forces::contact::{Collision, Hertz};
+use crate::forces::contact::{Collision, ElasticSolid, contact_radius};
 use crate::forces::limit::{Limit, Regime};
 use crate::particles::vector::Vector;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Mindlin's history spring by increments, capped at mu F_n; needs the Hertz contact.
+/// Mindlin's history spring by increments, capped at mu F_n; needs the hertz or tsuji
+/// contact.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Mindlin {
@@ -30,14 +30,14 @@ impl Mindlin {
     pub(crate) const NAME: &'static str = "mindlin";
 }
 
-impl FrictionKeys<Hertz> for Mindlin {
+impl<C: ElasticSolid> FrictionKeys<C> for Mindlin {
     type Law = MindlinLaw;
 
-    fn law(&self, contact: &Hertz, _: f64) -> MindlinLaw {
+    fn law(&self, contact: &C, _: f64) -> MindlinLaw {
         let law = MindlinLaw::new(
             self.coefficient,
-            contact.young_modulus,
-            contact.poisson_ratio,
+            contact.young_modulus(),
+            contact.poisson_ratio(),
         );
         match self.rescale {
             true => law.keeping(Keeps::Lesser),
@@ -45,27 +45,22 @@ impl FrictionKeys<Hertz> for Mindlin {
         }
     }
 
-    fn limit(
-        &self,
-        contact: &Hertz,
-        collisions: &[Collision],
-        regime: &Regime<'_>,
-    ) -> Option<Limit> {
+    fn limit(&self, contact: &C, collisions: &[Collision], regime: &Regime<'_>) -> Option<Limit> {
         mindlin_limit(contact, collisions, regime)
     }
 
-    fn simpler(&self, _: &Hertz) -> Option<Coulomb> {
+    fn simpler(&self, _: &C) -> Option<Coulomb> {
         Some(Coulomb::instead(self.coefficient))
     }
 }
 
 /// The limit of the time step from Mindlin's spring at a sticking contact.
 pub(super) fn mindlin_limit(
-    contact: &Hertz,
+    contact: &impl ElasticSolid,
     collisions: &[Collision],
     regime: &Regime<'_>,
 ) -> Option<Limit> {
-    let nu = contact.poisson_ratio;
+    let nu = contact.poisson_ratio();
     let stiffness_ratio = 2.0 * (1.0 - nu) / (2.0 - nu);
     let factor = (regime.surface_factor() * stiffness_ratio).sqrt();
     Some(Limit {

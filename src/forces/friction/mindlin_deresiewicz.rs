@@ -4,8 +4,7 @@ use super::mindlin::{mindlin_limit, mindlin_modulus};
 use super::{Coulomb, FrictionKeys, History, LoadedSpring, Spring, TangentialLaw};
 use super::{Touch, Turning};
 use crate::document::quantity;
-use crate::forces::contact::contact_radius;
-use crate::forces::contact::{Collision, Hertz};
+use crate::forces::contact::{Collision, ElasticSolid, contact_radius};
 use crate::forces::limit::{Limit, Regime};
 use crate::particles::vector::Vector;
 use schemars::JsonSchema;
@@ -13,7 +12,7 @@ use serde::{Deserialize, Serialize};
 
 /// Partial slip (Mindlin and Deresiewicz, 1953): a contact slips from its rim inward before it
 /// slides as a whole, so that the stiffness falls under load, and reversed loads dissipate energy
-/// below mu F_n; needs the Hertz contact.
+/// below mu F_n; needs the hertz or tsuji contact.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MindlinDeresiewicz {
@@ -27,28 +26,23 @@ impl MindlinDeresiewicz {
     pub(crate) const NAME: &'static str = "mindlin-deresiewicz";
 }
 
-impl FrictionKeys<Hertz> for MindlinDeresiewicz {
+impl<C: ElasticSolid> FrictionKeys<C> for MindlinDeresiewicz {
     type Law = MindlinDeresiewiczLaw;
 
-    fn law(&self, contact: &Hertz, _: f64) -> MindlinDeresiewiczLaw {
+    fn law(&self, contact: &C, _: f64) -> MindlinDeresiewiczLaw {
         MindlinDeresiewiczLaw::new(
             self.coefficient,
-            contact.young_modulus,
-            contact.poisson_ratio,
+            contact.young_modulus(),
+            contact.poisson_ratio(),
         )
     }
 
     /// The limit of a sticking contact, whose spring is stiffest.
-    fn limit(
-        &self,
-        contact: &Hertz,
-        collisions: &[Collision],
-        regime: &Regime<'_>,
-    ) -> Option<Limit> {
+    fn limit(&self, contact: &C, collisions: &[Collision], regime: &Regime<'_>) -> Option<Limit> {
         mindlin_limit(contact, collisions, regime)
     }
 
-    fn simpler(&self, _: &Hertz) -> Option<Coulomb> {
+    fn simpler(&self, _: &C) -> Option<Coulomb> {
         Some(Coulomb::instead(self.coefficient))
     }
 }

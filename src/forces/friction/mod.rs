@@ -3,6 +3,7 @@
 
 mod coulomb;
 mod cundall_strack;
+mod hooke;
 mod keeps;
 mod keys;
 mod mindlin;
@@ -13,6 +14,7 @@ mod spring;
 
 pub use coulomb::{Coulomb, CoulombLaw};
 pub use cundall_strack::{CundallStrack, CundallStrackLaw};
+pub use hooke::{HookeFriction, HookeFrictionLaw};
 pub(crate) use keeps::ForceChange;
 pub use keeps::{Keeps, SpringAtRadius};
 pub use keys::Friction;

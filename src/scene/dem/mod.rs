@@ -6,9 +6,10 @@ mod guards;
 mod neighbours;
 mod silo;
 
-pub use crate::forces::contact::{Contact, ContactDrag, Hertz, Linear, Silbert};
+pub use crate::forces::contact::{Contact, ContactDrag, Hertz, Hooke, Linear, Silbert, Tsuji};
 pub use crate::forces::friction::{
-    Coulomb, CundallStrack, Friction, Mindlin, MindlinDeresiewicz, SilbertFriction, Spin,
+    Coulomb, CundallStrack, Friction, HookeFriction, Mindlin, MindlinDeresiewicz, SilbertFriction,
+    Spin,
 };
 pub use crate::forces::rolling::Rolling;
 pub use driven::Driven;

@@ -1,8 +1,8 @@
-//! A sphere hits another one, or something fixed, under the Hertz contact of Silbert et al.,
-//! head-on or obliquely with their friction.
+//! A sphere hits another one, or something fixed, under a contact that attracts at its end, head-on
+//! or obliquely with friction.
 
-use super::bench::{Bench, SilbertMaterial, moving, unguarded};
-use super::{CaseFamily, MeasuredValues, VerifyError, named};
+use super::bench::{Bench, moving, unguarded};
+use super::{AnyMaterial, CaseFamily, MeasuredValues, VerifyError, named};
 use crate::dem::DemSimulation;
 use crate::particles::vector::Vector;
 use crate::scene::{DemScene, FixedSphere, Friction, Geometry, Scene, Tank};
@@ -12,14 +12,14 @@ use std::f64::consts::PI;
 /// A sphere hits another one, or something fixed. Two spheres move in the frame of the second.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct SilbertImpact {
-    partner: SilbertPartner,
+pub struct AttractiveImpact {
+    partner: AttractivePartner,
     /// Radius of the sphere (m).
     radius: f64,
     /// Radius of the partner, if it is a sphere of different radius (m).
     #[serde(default)]
     partner_radius: Option<f64>,
-    material: SilbertMaterial,
+    material: AnyMaterial,
     #[serde(default)]
     friction: Option<Friction>,
     /// Relative speed (m/s).
@@ -35,7 +35,7 @@ pub struct SilbertImpact {
 /// What the sphere hits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-enum SilbertPartner {
+enum AttractivePartner {
     Sphere,
     FixedSphere,
     /// A side of a box.
@@ -45,9 +45,9 @@ enum SilbertPartner {
 /// An impact takes less than this many times the duration of the elastic impact.
 const PATIENCE: f64 = 10.0;
 
-impl CaseFamily for SilbertImpact {
+impl CaseFamily for AttractiveImpact {
     fn name(&self) -> &'static str {
-        "silbert-impact"
+        "attractive-impact"
     }
 
     /// Contact time, restitution and deepest overlap of a head-on impact; the spin of the sphere
@@ -77,7 +77,7 @@ struct ReboundOfPair {
     spin: f64,
 }
 
-impl SilbertImpact {
+impl AttractiveImpact {
     /// An impact at an angle (degrees).
     fn impact(&self, angle: f64, bench: &mut Bench<'_>) -> Result<ReboundOfPair, VerifyError> {
         let (sine, cosine) = libm::sincos(angle * PI / 180.0);
@@ -119,23 +119,21 @@ impl SilbertImpact {
         let (radius, other) = (self.radius, self.partner_radius());
         let mass = |radius| self.material.mass(radius);
         let (effective_radius, effective_mass) = match self.partner {
-            SilbertPartner::Sphere => (
+            AttractivePartner::Sphere => (
                 radius * other / (radius + other),
                 mass(radius) * mass(other) / (mass(radius) + mass(other)),
             ),
-            SilbertPartner::FixedSphere => (radius * other / (radius + other), mass(radius)),
-            SilbertPartner::Side => (radius, mass(radius)),
+            AttractivePartner::FixedSphere => (radius * other / (radius + other), mass(radius)),
+            AttractivePartner::Side => (radius, mass(radius)),
         };
-        self.material
-            .impact(effective_radius, effective_mass, speed)
-            .contact_time()
+        (self.material).elastic_time(effective_radius, effective_mass, speed)
     }
 
     /// They touch at the start; the partner is at rest at the origin.
     fn scene(&self, velocity: Vector, dt: f64, bench: &Bench<'_>) -> Scene {
         let distance = match self.partner {
-            SilbertPartner::Side => 0.0,
-            SilbertPartner::Sphere | SilbertPartner::FixedSphere => {
+            AttractivePartner::Side => 0.0,
+            AttractivePartner::Sphere | AttractivePartner::FixedSphere => {
                 self.radius + self.partner_radius()
             }
         };
@@ -145,12 +143,12 @@ impl SilbertImpact {
         )];
         let (mut geometry, mut tank) = (None, None);
         match self.partner {
-            SilbertPartner::Sphere => {
+            AttractivePartner::Sphere => {
                 let mut partner = moving([0.0; 3], [0.0; 3]);
                 partner.radius = self.partner_radius;
                 spheres.push(partner);
             }
-            SilbertPartner::FixedSphere => {
+            AttractivePartner::FixedSphere => {
                 geometry = Some(Geometry::List {
                     walls: vec![FixedSphere {
                         position: [0.0; 3],
@@ -159,7 +157,7 @@ impl SilbertImpact {
                     door: Vec::new(),
                 });
             }
-            SilbertPartner::Side => {
+            AttractivePartner::Side => {
                 tank = Some(Tank {
                     width: Some(2.0 * self.radius),
                     ..Tank::default()
@@ -174,7 +172,7 @@ impl SilbertImpact {
                 geometry,
                 ..unguarded()
             },
-            ..bench.scene(self.material.density, self.radius, spheres, dt)
+            ..bench.scene(self.material.density(), self.radius, spheres, dt)
         }
     }
 
@@ -185,9 +183,9 @@ impl SilbertImpact {
         let sphere = particles.fixed;
         let (place, speed) = (position[sphere], velocity[sphere]);
         let other = match self.partner {
-            SilbertPartner::Sphere => 1,
-            SilbertPartner::FixedSphere => 0,
-            SilbertPartner::Side => return (-place.x, speed.x),
+            AttractivePartner::Sphere => 1,
+            AttractivePartner::FixedSphere => 0,
+            AttractivePartner::Side => return (-place.x, speed.x),
         };
         let offset = place - position[other];
         let distance = offset.norm();
