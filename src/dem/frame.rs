@@ -87,6 +87,7 @@ impl DemSimulation {
                 damping: -work.damping,
                 friction: -work.tangential - contacts.spring_energy,
                 air: work.air,
+                walls: work.walls,
                 brought: work.brought,
             }),
             flow: self.counts().map(|counts| Flow {
@@ -94,7 +95,7 @@ impl DemSimulation {
                 released: counts.released,
                 discharged: counts.discharged,
                 spilled: counts.spilled,
-                contacts: contacts.of_moving_spheres,
+                contacts: usize::try_from(contacts.of_moving_spheres).unwrap_or(0),
             }),
         }
     }

@@ -140,10 +140,13 @@ scalars! {
             springs do not store";
     work_of_air "J" "Work of the air on the spheres since the start, including the damping of \
         spins";
+    work_of_walls "J"
+        "Work on the spheres since the start of walls that slide in themselves; dissipation by \
+            damping and friction is counted apart";
     energy_brought "J"
         "Energy of spheres that came in since the start, minus the energy of spheres that left";
     residual "J"
-        "All energy plus dissipation, minus the energy from air and new spheres, minus the same at \
+        "All energy plus dissipation, minus the energy from air, walls and new spheres, minus the same at \
             the start: the error of the integrator";
 }
 
@@ -193,6 +196,10 @@ impl Observations {
             | "residual" => (
                 scene.output.ledger,
                 "the energy is balanced only with `output.ledger = true`",
+            ),
+            "work_of_walls" => (
+                scene.output.ledger && scene.has_moving_walls(),
+                "the work of walls is counted only with `output.ledger = true`, if a wall slides",
             ),
             "spots" => (scene.spot.is_some(), "only a scene with [spot] has spots"),
             _ => return None,

@@ -31,6 +31,8 @@ pub struct Observer {
     has_axis: bool,
     has_air: bool,
     has_contacts: bool,
+    /// Whether walls slide in themselves.
+    has_moving_walls: bool,
     /// Whether energies are recorded: in the spot model velocities are only mean displacements.
     has_energies: bool,
     /// Whether motion relative to the mean is recorded.
@@ -104,6 +106,7 @@ impl Observer {
             has_fluctuation: has_axis && fluctuation,
             has_speed: output.records("speed_mean"),
             has_contacts: scene.dem.contact.is_some(),
+            has_moving_walls: scene.has_moving_walls(),
             has_energies: scene.spot.is_none() && (output.ledger || any(&energies)),
             has_spheres: !scene.is_external(),
             air_rotation: scene
@@ -239,6 +242,7 @@ impl Observer {
     fn note_ledger(&mut self, ledger: &Ledger, energy: f64) {
         let balance = energy + ledger.springs + ledger.damping + ledger.friction
             - ledger.air
+            - ledger.walls
             - ledger.brought;
         let start = *self.balance.get_or_insert(balance);
         let observations = &mut self.observations;
@@ -250,6 +254,9 @@ impl Observer {
             .dissipated_by_friction
             .push(ledger.friction as f32);
         observations.work_of_air.push(ledger.air as f32);
+        if self.has_moving_walls {
+            observations.work_of_walls.push(ledger.walls as f32);
+        }
         observations.energy_brought.push(ledger.brought as f32);
         observations.residual.push((balance - start) as f32);
     }

@@ -60,6 +60,8 @@ pub struct Ledger {
     pub friction: f64,
     /// Work of the air, including the damping of spins.
     pub air: f64,
+    /// Work of walls that move in themselves.
+    pub walls: f64,
     /// Energy of spheres that came in, minus the energy of spheres that left.
     pub brought: f64,
 }
