@@ -4,6 +4,7 @@
 mod cylinder;
 mod joints;
 mod opening;
+mod outline;
 mod parallelogram;
 mod plane;
 mod revolved;

@@ -34,3 +34,4 @@ mod support;
 mod time_scales;
 mod time_step;
 mod verification;
+mod walls;
