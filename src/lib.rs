@@ -54,7 +54,7 @@
 //!     },
 //!     ..Scene::new(
 //!         Spheres { count: 8, radius: Radii::One(0.004), density: 3750.0, shape: Shape::Sphere },
-//!         Start::Random { z_min: 0.01, z_max: 0.05, speed: 0.005, spin: 0.0 },
+//!         Start::Random { z_min: 0.01, z_max: 0.05, x: None, y: None, speed: 0.005, spin: 0.0 },
 //!         Time {
 //!             dt: 1e-4,
 //!             safety_factor: None,
@@ -137,3 +137,4 @@ pub mod sweep;
 pub mod theory;
 #[doc(hidden)]
 pub mod verify;
+pub mod walls;

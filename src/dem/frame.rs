@@ -88,6 +88,7 @@ impl DemSimulation {
                 friction: -work.tangential - contacts.spring_energy,
                 air: work.air,
                 shaking: work.shaking,
+                walls: work.walls,
                 brought: work.brought,
             }),
             flow: self.counts().map(|counts| Flow {
@@ -95,7 +96,7 @@ impl DemSimulation {
                 released: counts.released,
                 discharged: counts.discharged,
                 spilled: counts.spilled,
-                contacts: contacts.of_moving_spheres,
+                contacts: usize::try_from(contacts.of_moving_spheres).unwrap_or(0),
             }),
         }
     }

@@ -36,7 +36,7 @@ pub(super) fn engine(
     type Spheres = (SystemSetup, Particles);
     fn boxed<N: NormalLaw, T: TangentialLaw>(
         normal: N,
-        tangential: [T; 2],
+        tangential: T,
         (setup, particles): Spheres,
     ) -> Box<dyn Engine> {
         Box::new(System::new(normal, tangential, setup, particles))
@@ -50,22 +50,16 @@ pub(super) fn engine(
     let spheres = (setup, particles);
     let radius = scene.mean_radius();
     let mass = scene.spheres.shape.mass(scene.spheres.density, radius) * scene.inertial_factor();
-    let at_walls = scene.friction_at_walls();
     macro_rules! of_pair {
         ($(($contact:ident, $friction:ident),)+) => {
             match (&scene.dem.contact, &scene.dem.friction) {
-                (None, None) => Ok(boxed(NoContact, [Frictionless; 2], spheres)),
+                (None, None) => Ok(boxed(NoContact, Frictionless, spheres)),
                 (None, Some(_)) => Err(DemBuildError::FrictionWithoutContact),
                 (Some(contact), None) => Ok(with_keys!(contact, contact => {
-                    boxed(contact.law(radius, mass), [Frictionless; 2], spheres)
+                    boxed(contact.law(radius, mass), Frictionless, spheres)
                 })),
                 $((Some(Contact::$contact(contact)), Some(Friction::$friction(friction))) => {
-                    let at_walls = match &at_walls {
-                        Some(Friction::$friction(at_walls)) => at_walls,
-                        _ => friction,
-                    };
-                    let frictions = [friction, at_walls].map(|it| it.law(contact, dt));
-                    Ok(boxed(contact.law(radius, mass), frictions, spheres))
+                    Ok(boxed(contact.law(radius, mass), friction.law(contact, dt), spheres))
                 })+
                 (Some(_), Some(_)) => Err(DemBuildError::LawsDoNotGoTogether),
             }

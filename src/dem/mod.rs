@@ -26,7 +26,7 @@ mod state;
 mod system;
 mod threads;
 pub mod timestep;
-pub mod walls;
+
 mod work;
 
 pub use barrier::{WallFailure, WeakestWall};

@@ -2,10 +2,10 @@
 
 use super::neighbours::visit_pairs;
 use super::timestep::fastest::Fastest;
-use super::walls::{TankWall, Wall};
 use crate::particles::Particles;
 use crate::scene::{Scene, Start};
 use crate::start;
+use crate::walls::{Wall, WallName};
 
 /// Overlaps below this share of the radius come from rounded positions.
 const NEGLIGIBLE: f64 = 1e-6;
@@ -21,8 +21,8 @@ pub enum OverlapPartner {
     Sphere(usize),
     /// A fixed sphere, by its centre (m).
     Fixed([f64; 3]),
-    /// A wall of the tank, by its name.
-    Wall(&'static str),
+    /// A wall, by its name.
+    Wall(WallName),
 }
 
 /// An overlap at the start.
@@ -110,14 +110,14 @@ pub(super) fn visit(scene: &Scene, mut visit: impl FnMut(Overlap)) {
             });
         }
     });
-    for wall in walls(scene) {
+    for wall in Wall::of_scene(scene) {
         for i in (fixed..particles.len()).filter(|i| !particles.is_prescribed(*i)) {
             let contact = wall.contact(position[i], radius[i]);
             if contact.touches && contact.overlap > 0.0 {
                 visit(Overlap {
                     sphere: i - fixed,
                     radius: radius[i],
-                    partner: OverlapPartner::Wall(wall.name()),
+                    partner: OverlapPartner::Wall(wall.name),
                     depth: contact.overlap,
                     depth_in_radii: contact.overlap / radius[i],
                     distance: radius[i] - contact.overlap,
@@ -126,13 +126,6 @@ pub(super) fn visit(scene: &Scene, mut visit: impl FnMut(Overlap)) {
             }
         }
     }
-}
-
-/// The walls of the tank of a scene as they are at the start.
-pub(super) fn walls(scene: &Scene) -> Vec<TankWall> {
-    let is_closed = scene.dem.door.is_some();
-    let tank = scene.tank.as_ref();
-    tank.map_or_else(Vec::new, |tank| TankWall::of_tank(tank, is_closed))
 }
 
 /// The deepest overlap (m); zero if none touch.

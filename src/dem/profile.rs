@@ -4,6 +4,7 @@ use crate::forces::effects::Effects;
 use crate::scene::{Scene, Start, Tank};
 use crate::simulation::PartOfStep;
 pub(super) use crate::simulation::Profile;
+use crate::walls::WallName;
 
 /// The parts of a step that cost time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -20,6 +21,8 @@ pub enum StepPart {
     Cylinder,
     /// Forces of the sides: contact and friction.
     Sides,
+    /// Forces of the walls that a scene lists: contact and friction.
+    Walls,
     /// Rolling resistance of all contacts.
     Rolling,
     /// Counting the spheres that shield one another from the updraught.
@@ -49,6 +52,7 @@ impl StepPart {
             Self::Floor,
             Self::Cylinder,
             Self::Sides,
+            Self::Walls,
             Self::Rolling,
             Self::Shield,
         ];
@@ -72,14 +76,25 @@ impl StepPart {
             Self::Floor => 3,
             Self::Cylinder => 4,
             Self::Sides => 5,
-            Self::Rolling => 6,
-            Self::Shield => 7,
-            Self::Effect(place) => 8 + place,
-            Self::Ledger => 8 + Effects::COUNT,
-            Self::Kick => 9 + Effects::COUNT,
-            Self::Drift => 10 + Effects::COUNT,
-            Self::Rest => 11 + Effects::COUNT,
-            Self::Process => 12 + Effects::COUNT,
+            Self::Walls => 6,
+            Self::Rolling => 7,
+            Self::Shield => 8,
+            Self::Effect(place) => 9 + place,
+            Self::Ledger => 9 + Effects::COUNT,
+            Self::Kick => 10 + Effects::COUNT,
+            Self::Drift => 11 + Effects::COUNT,
+            Self::Rest => 12 + Effects::COUNT,
+            Self::Process => 13 + Effects::COUNT,
+        }
+    }
+
+    /// The part to which the forces of a wall belong.
+    pub(super) fn of_wall(name: WallName) -> Self {
+        match name {
+            WallName::Floor | WallName::FloorAroundOpening => Self::Floor,
+            WallName::Cylinder => Self::Cylinder,
+            WallName::Side => Self::Sides,
+            WallName::Listed(_) => Self::Walls,
         }
     }
 
@@ -92,6 +107,7 @@ impl StepPart {
             Self::Floor => "floor",
             Self::Cylinder => "cylinder",
             Self::Sides => "sides",
+            Self::Walls => "walls",
             Self::Rolling => "rolling resistance",
             Self::Shield => "counting shield",
             Self::Effect(place) => Effects::all_names().nth(place).unwrap_or(""),
@@ -114,6 +130,7 @@ impl StepPart {
             Self::Floor => wall(tank.is_some_and(|tank| tank.floor.is_some())),
             Self::Cylinder => wall(tank.is_some_and(|tank| tank.radius.is_some())),
             Self::Sides => wall(tank.is_some_and(Tank::has_sides)),
+            Self::Walls => wall(!scene.dem.walls.is_empty()),
             Self::Rolling => scene.dem.rolling.is_some(),
             Self::Shield => scene.dem.effects.updraught.is_some(),
             Self::Effect(_) => scene.dem.effects.names().any(|name| name == self.name()),

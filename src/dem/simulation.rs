@@ -8,7 +8,6 @@ use super::neighbours::VerletList;
 use super::order;
 use super::process::{Feed, Process};
 use super::system::{Engine, SystemSetup};
-use super::walls::TankWall;
 use crate::cpu_time;
 use crate::forces::effects::Targets;
 use crate::particles::vector::Vector;
@@ -16,6 +15,7 @@ use crate::particles::{Particles, Sphere};
 use crate::scene::{Driven, Neighbours, Rolling, Scene, Start};
 use crate::simulation::{Counts, Instability, Milestone};
 use crate::start;
+use crate::walls::{Wall, with_joints};
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 
 /// First skin of a neighbour list for contacts, in radii of the largest sphere. The list then holds
@@ -24,6 +24,10 @@ const CONTACT_SKIN: f64 = 0.5;
 
 /// The same for the columns of an updraught's shield, whose list grows less with its skin.
 const COLUMN_SKIN: f64 = 1.0;
+
+/// Walls count as joined within this distance, in radii of the smallest sphere: their places are
+/// rounded.
+const JOINED: f64 = 1e-4;
 
 /// A running simulation.
 pub struct DemSimulation {
@@ -240,11 +244,9 @@ fn setup(scene: &Scene, particles: &Particles, skin: f64) -> SystemSetup {
     let tank = scene.tank.as_ref();
     let is_closed = scene.dem.door.is_some();
     SystemSetup {
-        walls: tank
-            .map(|tank| TankWall::of_tank(tank, is_closed))
-            .unwrap_or_default(),
+        walls: with_joints(Wall::of_scene(scene), JOINED * scene.smallest_radius()),
         closed_floor: tank
-            .and_then(TankWall::floor_with_opening)
+            .and_then(Wall::floor_with_opening)
             .filter(|_| is_closed),
         effects: scene.dem.effects.build(&Targets {
             radii: &particles.radius,

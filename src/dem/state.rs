@@ -46,12 +46,10 @@ impl DemSimulation {
             (None, None) => {}
             _ => return Err(StateError("spheres come and go in only one of them")),
         }
-        self.engine.restore(state.engine)?;
+        let is_open = (state.process.as_ref()).is_some_and(|process| !process.is_closed());
+        self.engine.restore(state.engine, is_open)?;
         if let (Some(process), Some(state)) = (&mut self.process, state.process) {
             process.restore(state);
-            if !process.is_closed() {
-                self.engine.open_floor();
-            }
         }
         Ok(())
     }

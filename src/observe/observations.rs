@@ -142,11 +142,14 @@ scalars! {
         spins";
     work_of_shaking "J"
         "Work of the shaking on the spheres since the start, in the frame of the box";
+    work_of_walls "J"
+        "Work on the spheres since the start of walls that slide in themselves; dissipation by \
+            damping and friction is counted apart";
     energy_brought "J"
         "Energy of spheres that came in since the start, minus the energy of spheres that left";
     residual "J"
-        "All energy plus dissipation, minus the energy from air, shaking and new spheres, minus \
-            the same at the start: the error of the integrator";
+        "All energy plus dissipation, minus the energy from air, shaking, walls and new spheres, \
+            minus the same at the start: the error of the integrator";
 }
 
 impl Observations {
@@ -199,6 +202,10 @@ impl Observations {
             | "residual" => (
                 scene.output.ledger,
                 "the energy is balanced only with `output.ledger = true`",
+            ),
+            "work_of_walls" => (
+                scene.output.ledger && scene.has_moving_walls(),
+                "the work of walls is counted only with `output.ledger = true`, if a wall slides",
             ),
             "spots" => (scene.spot.is_some(), "only a scene with [spot] has spots"),
             _ => return None,

@@ -31,6 +31,8 @@ pub struct Observer {
     has_axis: bool,
     has_air: bool,
     has_contacts: bool,
+    /// Whether walls slide in themselves.
+    has_moving_walls: bool,
     /// Whether energies are recorded: in the spot model velocities are only mean displacements.
     has_energies: bool,
     /// Whether motion relative to the mean is recorded.
@@ -106,6 +108,7 @@ impl Observer {
             has_fluctuation: has_axis && fluctuation,
             has_speed: output.records("speed_mean"),
             has_contacts: scene.dem.contact.is_some(),
+            has_moving_walls: scene.has_moving_walls(),
             has_energies: scene.spot.is_none() && (output.ledger || any(&energies)),
             has_spheres: !scene.is_external(),
             is_shaken: scene.dem.effects.shaking.is_some(),
@@ -243,7 +246,8 @@ impl Observer {
         let balance = energy + ledger.springs + ledger.damping + ledger.friction
             - ledger.air
             - ledger.brought
-            - ledger.shaking;
+            - ledger.shaking
+            - ledger.walls;
         let start = *self.balance.get_or_insert(balance);
         let observations = &mut self.observations;
         observations.springs.push(ledger.springs as f32);
@@ -256,6 +260,9 @@ impl Observer {
         observations.work_of_air.push(ledger.air as f32);
         if self.is_shaken {
             observations.work_of_shaking.push(ledger.shaking as f32);
+        }
+        if self.has_moving_walls {
+            observations.work_of_walls.push(ledger.walls as f32);
         }
         observations.energy_brought.push(ledger.brought as f32);
         observations.residual.push((balance - start) as f32);

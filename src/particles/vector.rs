@@ -77,6 +77,21 @@ impl Vector {
         self.norm_squared().sqrt()
     }
 
+    /// The vector of length 1 in this direction.
+    pub fn unit(self) -> Self {
+        self * (1.0 / self.norm())
+    }
+
+    /// The vector turned by an angle (rad) about the direction of `axis`: Rodrigues' formula.
+    /// Exact without an angle.
+    pub(crate) fn turned_about(self, axis: Self, angle: f64) -> Self {
+        if angle == 0.0 {
+            return self;
+        }
+        let (axis, (sine, cosine)) = (axis.unit(), libm::sincos(angle));
+        self * cosine + axis.cross(self) * sine + axis * (axis.dot(self) * (1.0 - cosine))
+    }
+
     /// The part perpendicular to the unit vector `normal`.
     #[inline(always)]
     pub fn perpendicular_to(self, normal: Self) -> Self {

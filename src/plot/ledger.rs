@@ -81,6 +81,7 @@ fn accounts(observations: &Observations) -> Vec<Account> {
             line(&observations.dissipated_by_friction, orange),
         ),
         ("work of the air", line(&observations.work_of_air, pink)),
+        ("work of the walls", line(&observations.work_of_walls, pink)),
         (
             "work of the shaking",
             line(&observations.work_of_shaking, BLACK),

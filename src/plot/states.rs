@@ -238,7 +238,7 @@ fn stages(ends: &[End]) -> Vec<Stage> {
     let seen = ends.iter().map(top_of).fold(0.0, f64::max);
     let mut stages: Vec<Stage> = ends
         .iter()
-        .map(|end| end.stage.up_to(end.stage.seen[0][2] + seen))
+        .map(|end| end.stage.clone().up_to(end.stage.seen[0][2] + seen))
         .collect();
     for axis in 0..2 {
         let seen = stages.iter().flat_map(|stage| stage.seen);

@@ -7,6 +7,7 @@ use super::{Rgb, Stage};
 use crate::observe::Snapshot;
 use crate::record::{Milestone, MilestoneKind};
 use crate::scene::{FixedSphere, FixedSpheres, Geometry, Scene, Shape};
+use crate::walls::Wall;
 use std::fmt::Write;
 
 /// Colour of grains if colours have no meaning.
@@ -32,6 +33,8 @@ pub struct Scenery {
     opened: Option<f64>,
     /// Distance of a tank's walls from its axis along x, and height of its floor (m).
     tank: [Option<f64>; 2],
+    /// Edges of listed walls as lines (m) from point to point.
+    edges: Vec<Window>,
 }
 
 impl Scenery {
@@ -49,6 +52,7 @@ impl Scenery {
                 tank.and_then(|tank| tank.reach()[0]),
                 tank.and_then(|tank| tank.floor),
             ],
+            edges: edges(scene),
         }
     }
 
@@ -91,7 +95,8 @@ impl Scenery {
         let sides = reach
             .into_iter()
             .flat_map(|reach| [-reach, reach].map(|x| [[x, foot], [x, high[1]]]));
-        sides.chain(floor).collect()
+        let edges = self.edges.iter().copied();
+        sides.chain(floor).chain(edges).collect()
     }
 
     /// The stage, extended to include all fixed parts.
@@ -142,6 +147,19 @@ impl Scenery {
         );
         elements + &group("grains", GRAIN, &rim, circles)
     }
+}
+
+/// The edges and rims of the walls that a scene lists, seen along y, as lines (m) from point to
+/// point. Those along y are left out.
+pub(crate) fn edges(scene: &Scene) -> Vec<Window> {
+    let walls = Wall::of_scene(scene).into_iter();
+    let lines = walls.flat_map(|wall| wall.outline());
+    let lines = lines.flat_map(|line| {
+        let flat: Vec<_> = line.iter().map(|it| [it.x, it.z]).collect();
+        let pairs = flat.windows(2).map(|two| [two[0], two[1]]);
+        pairs.filter(|[from, to]| from != to).collect::<Vec<_>>()
+    });
+    lines.collect()
 }
 
 /// The window of a stage.

@@ -288,7 +288,7 @@ fn depths(spheres: &[ShadedSphere], camera: &Camera) -> [f64; 2] {
 fn outlines(stage: &Stage, camera: &Camera) -> Vec<Vec<Vector>> {
     let [low, high] = stage.seen;
     let bottom = stage.floor.unwrap_or(low[2]);
-    let mut lines = Vec::new();
+    let mut lines = stage.lines.clone();
     if let Some(radius) = stage.radius {
         for side in [-radius, radius] {
             let at = |z| camera.right * side + Vector::new(0.0, 0.0, z);

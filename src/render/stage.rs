@@ -3,9 +3,10 @@
 use crate::observe::Snapshot;
 use crate::particles::vector::Vector;
 use crate::scene::Scene;
+use crate::walls::Wall;
 
 /// The walls, and the visible box.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Stage {
     /// Radius of the cylinder about the z axis (m), if there is one.
     pub radius: Option<f64>,
@@ -13,6 +14,8 @@ pub struct Stage {
     pub sides: [Option<f64>; 2],
     /// Height of the floor (m), if there is one.
     pub floor: Option<f64>,
+    /// Edges and rims of listed walls as lines from point to point (m).
+    pub lines: Vec<Vec<Vector>>,
     /// Corners of the visible box (m): least x, y and z, then the largest.
     pub seen: [[f64; 3]; 2],
 }
@@ -26,6 +29,7 @@ impl Stage {
             radius,
             sides: [None; 2],
             floor,
+            lines: Vec::new(),
             seen: [
                 [-reach, -reach, floor_or_zero],
                 [reach, reach, floor_or_zero],
@@ -35,14 +39,25 @@ impl Stage {
 
     /// The stage of a scene, with nothing on it yet.
     pub fn of_scene(scene: &Scene) -> Self {
+        let walls = Wall::of_scene(scene).into_iter();
+        let lines = walls.flat_map(|wall| wall.outline()).collect();
         let Some(tank) = &scene.tank else {
-            return Self::new(None, None);
+            return Self::new(None, None).with_lines(lines);
         };
         let stage = Self::new(tank.radius, tank.floor);
-        match tank.radius {
+        let stage = match tank.radius {
             Some(_) => stage,
             None => stage.with_sides(tank.reach()),
-        }
+        };
+        stage.with_lines(lines)
+    }
+
+    /// The stage with lines (m), extended to include them.
+    fn with_lines(mut self, lines: Vec<Vec<Vector>>) -> Self {
+        let points = lines.iter().flatten().map(|it| ([it.x, it.y, it.z], 0.0));
+        self = self.around_spheres(points.collect::<Vec<_>>());
+        self.lines = lines;
+        self
     }
 
     /// The stage with plane sides at these distances from the axis along x and along y (m), if
@@ -122,6 +137,7 @@ impl Stage {
         self.radius.is_none()
             && !self.has_sides()
             && self.floor.is_none()
+            && self.lines.is_empty()
             && self.seen[0] == self.seen[1]
     }
 

@@ -5,6 +5,7 @@ const TANK: Stage = Stage {
     radius: Some(0.06),
     sides: [None; 2],
     floor: Some(-0.2),
+    lines: Vec::new(),
     seen: [[-0.06, -0.06, -0.2], [0.06, 0.06, -0.08]],
 };
 

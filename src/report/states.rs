@@ -3,6 +3,7 @@
 use super::codes::{Codes, ends, rounded};
 use super::document::{RadiiEntry, StatesEntry, WallsEntry};
 use crate::record::RunRecord;
+use crate::render::flat::edges;
 use crate::scene::{Geometry, Scene, Shape};
 
 /// Distance of fixed spheres over the sum of their radii up to which they make one wall.
@@ -60,6 +61,11 @@ fn walls(scene: &Scene, top: f64) -> Option<WallsEntry> {
             segments.extend([[-reach, floor, -half, floor], [half, floor, reach, floor]]);
         }
     }
+    segments.extend(
+        edges(scene)
+            .into_iter()
+            .map(|[[x, z], [end_x, end_z]]| [x, z, end_x, end_z].map(rounded)),
+    );
     (!segments.is_empty()).then_some(WallsEntry::Segments { segments })
 }
 

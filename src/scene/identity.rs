@@ -1,6 +1,6 @@
 //! The identity of a run: a hash of everything that determines its motion.
 
-use super::{Contact, Door, Friction, Geometry, Outlet, Rest, Rolling};
+use super::{Contact, Door, Friction, Geometry, Outlet, Rest, Rolling, SceneWall};
 use super::{
     DemScene, Driven, Effects, ExternalProgram, Guards, Neighbours, Output, ProgramParameters,
     ProgramResume, ProgramStates, ProgramTable, Scene, Spheres, Spot, Start, Steady, Tank,
@@ -24,6 +24,9 @@ struct MotionKeys<'a> {
     rolling: &'a Option<Rolling>,
     #[serde(skip_serializing_if = "Option::is_none")]
     tank: &'a Option<Tank>,
+    /// Without their names.
+    #[serde(rename = "wall", skip_serializing_if = "Vec::is_empty")]
+    walls: Vec<SceneWall>,
     #[serde(skip_serializing_if = "Option::is_none")]
     geometry: &'a Option<Geometry>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -139,6 +142,7 @@ impl Scene {
             contact,
             friction,
             rolling,
+            walls,
             geometry,
             door,
             rest,
@@ -156,6 +160,7 @@ impl Scene {
             friction_form: friction.as_ref().and_then(Friction::form),
             rolling,
             tank,
+            walls: walls.iter().map(SceneWall::without_name).collect(),
             geometry,
             door,
             rest,

@@ -38,10 +38,10 @@ pub(crate) use change::is_within;
 pub use columns::FurtherColumn;
 pub(crate) use dem::MOST_HOPPER_SPHERES;
 pub use dem::{
-    Contact, ContactDrag, Coulomb, CundallStrack, DemScene, Door, Driven, FixedSphere,
-    FixedSpheres, Friction, Geometry, Guards, Hertz, Hooke, HookeFriction, Hopper, LengthUnit,
-    Linear, Mindlin, MindlinDeresiewicz, Neighbours, Outlet, Rest, Rolling, Silbert,
-    SilbertFriction, Spin, Tsuji,
+    ConeWall, Contact, ContactDrag, Coulomb, CundallStrack, CylinderWall, DemScene, DiscWall, Door,
+    Driven, FixedSphere, FixedSpheres, Friction, Geometry, Guards, Hertz, Hooke, HookeFriction,
+    Hopper, LengthUnit, Linear, Mindlin, MindlinDeresiewicz, Neighbours, Outlet, PlaneWall,
+    PlateWall, Rest, Rolling, SceneWall, Silbert, SilbertFriction, Spin, Tsuji,
 };
 pub use file_kind::FileKind;
 pub(crate) use files::in_start_file;
@@ -162,6 +162,11 @@ impl Scene {
         let is_free = |number: usize| driven.iter().all(|path| path.sphere != number);
         let numbered = listed.iter().enumerate();
         numbered.filter(move |(number, _)| is_free(*number))
+    }
+
+    /// Whether walls slide in themselves.
+    pub fn has_moving_walls(&self) -> bool {
+        self.dem.walls.iter().any(SceneWall::moves)
     }
 
     /// The friction law at the walls of the tank, whose coefficient may differ. `None` without

@@ -18,8 +18,8 @@ pub(super) static START_SPHERE: LazyLock<Schema> = LazyLock::new(Schema::of::<St
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Start {
-    /// Random positions without overlap, inside the tank's cylinder or its four sides and clear of
-    /// fixed spheres.
+    /// Random positions without overlap, inside the tank's cylinder or its four sides or in a box,
+    /// and clear of fixed spheres and of all walls.
     Random {
         /// Lowest start height of a centre (m).
         #[schemars(transform = place("z_{min}", "lowest start height"))]
@@ -27,6 +27,14 @@ pub enum Start {
         /// Highest start height of a centre (m).
         #[schemars(transform = place("z_{max}", "highest start height"))]
         z_max: f64,
+        /// Least and largest x of a centre (m). Default: as far as the tank reaches.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[schemars(transform = unit("m"))]
+        x: Option<[f64; 2]>,
+        /// Least and largest y of a centre (m). Default: as far as the tank reaches.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[schemars(transform = unit("m"))]
+        y: Option<[f64; 2]>,
         /// Each velocity component is uniform in plus or minus this (m/s).
         #[serde(default)]
         #[schemars(
@@ -105,6 +113,33 @@ impl Start {
 
 /// Approximate packing fraction of a box of spheres, walls included.
 const PACKING_FRACTION: f64 = 0.61;
+
+impl Scene {
+    /// Least and largest x, and y, of the centres of a random start (m), where `start` gives them.
+    pub(crate) fn start_box(&self) -> [Option<[f64; 2]>; 2] {
+        match &self.start {
+            Start::Random { x, y, .. } => [*x, *y],
+            _ => [None; 2],
+        }
+    }
+
+    /// Area (m2) over which a random start spreads, if it is closed.
+    pub(crate) fn start_area(&self) -> Option<f64> {
+        let tank = self.tank.as_ref();
+        let sides = self.start_box();
+        if sides == [None; 2] {
+            return tank.and_then(Tank::area);
+        }
+        // Centres keep away from plane sides, but not from the ends of the box.
+        let diameter = 2.0 * self.radius_range().1;
+        let reach = tank.map(Tank::reach).unwrap_or_default();
+        let side = |axis: usize| {
+            let whole = sides[axis].map(|[low, high]| high - low + diameter);
+            whole.or(reach[axis].map(|reach| 2.0 * reach))
+        };
+        Some(side(0)? * side(1)?)
+    }
+}
 
 impl Scene {
     /// Approximate height (m) of the spheres at rest in the tank; 0 without walls all around.

@@ -62,6 +62,8 @@ pub struct Ledger {
     pub air: f64,
     /// Work of the shaking on the spheres, in the frame of the box.
     pub shaking: f64,
+    /// Work of walls that move in themselves.
+    pub walls: f64,
     /// Energy of spheres that came in, minus the energy of spheres that left.
     pub brought: f64,
 }

@@ -67,6 +67,7 @@ pub fn place(scene: &Scene) -> Result<Particles, StartError> {
             z_max,
             speed,
             spin,
+            ..
         } => {
             place_at_random(&mut particles, scene, [*z_min, *z_max])?;
             let mut random = scene.random_stream("velocities");

@@ -3,7 +3,8 @@
 use super::{StartError, uniform};
 use crate::particles::Particles;
 use crate::particles::vector::Vector;
-use crate::scene::Scene;
+use crate::scene::{Scene, Tank};
+use crate::walls::Wall;
 use rand::Rng;
 
 /// Random positions tried for a sphere before the tank counts as full.
@@ -11,48 +12,57 @@ pub(super) const ATTEMPTS: usize = 100_000;
 
 /// Where centres may be at the start.
 pub(super) struct StartRoom {
-    /// How far the walls are from the axis along x and y (m).
-    reach: [f64; 2],
-    /// Whether they are a cylinder.
-    is_round: bool,
+    /// Least and largest x and y (m): of the tank, or of centres if the start gives them.
+    sides: [[f64; 2]; 2],
+    /// Whether spheres keep away from these sides by their radii.
+    are_walls: [bool; 2],
+    /// Radius of the tank (m), if it is round.
+    radius: Option<f64>,
     /// Lowest and highest centre (m).
     heights: [f64; 2],
+    /// Walls that the scene lists.
+    walls: Vec<Wall>,
 }
 
 impl StartRoom {
     /// The room within the walls of a scene, if they enclose it.
     pub(super) fn of_scene(scene: &Scene, heights: [f64; 2]) -> Option<Self> {
-        let tank = scene.tank.as_ref()?;
-        let [Some(x), Some(y)] = tank.reach() else {
-            return None;
-        };
+        let tank = scene.tank.as_ref();
+        let reach = tank.map(Tank::reach).unwrap_or_default();
+        let given = scene.start_box();
+        let side = |axis: usize| given[axis].or(reach[axis].map(|reach| [-reach, reach]));
+        let radius = tank.and_then(|tank| tank.radius);
+        let listed = Wall::of_scene(scene).into_iter();
         Some(Self {
-            reach: [x, y],
-            is_round: tank.radius.is_some(),
+            sides: [side(0)?, side(1)?],
+            are_walls: given.map(|side| side.is_none() && radius.is_none()),
+            radius,
             heights,
+            walls: listed.filter(|wall| !wall.name.is_of_tank()).collect(),
         })
     }
 
     /// A random position, uniform in the box around the room. Between plane sides it keeps a sphere
     /// of this radius (m) away from them.
     fn place(&self, radius: f64, random: &mut impl Rng) -> Vector {
-        let [x, y] = match self.is_round {
-            true => self.reach,
-            false => self.reach.map(|reach| reach - radius),
+        let along = |axis: usize, share: f64| {
+            let [low, high] = self.sides[axis];
+            let margin = if self.are_walls[axis] { radius } else { 0.0 };
+            0.5 * (low + high) + (0.5 * (high - low) - margin) * (2.0 * share - 1.0)
         };
         let [low, high] = self.heights;
         let (a, b, c) = (uniform(random), uniform(random), uniform(random));
-        Vector::new(
-            x * (2.0 * a - 1.0),
-            y * (2.0 * b - 1.0),
-            low + (high - low) * c,
-        )
+        Vector::new(along(0, a), along(1, b), low + (high - low) * c)
     }
 
     /// Whether a sphere of this radius (m) at such a position does not touch the walls.
     fn holds(&self, centre: Vector, radius: f64) -> bool {
-        let reach = self.reach[0] - radius;
-        !self.is_round || centre.x * centre.x + centre.y * centre.y < reach * reach
+        let is_inside = |tank: f64| {
+            let reach = tank - radius;
+            centre.x * centre.x + centre.y * centre.y < reach * reach
+        };
+        let touches = |wall: &Wall| wall.is_near(centre, radius, 0.0);
+        self.radius.is_none_or(is_inside) && !self.walls.iter().any(touches)
     }
 }
 
@@ -109,12 +119,13 @@ impl ScatterGrid {
     const NONE: u32 = u32::MAX;
 
     fn new(radii: &[f64], room: &StartRoom) -> Self {
-        let [x, y] = room.reach;
+        let [x, y] = room.sides;
         let [low, high] = room.heights;
-        let corner = Vector::new(-x, -y, low);
+        let corner = Vector::new(x[0], y[0], low);
         let mut width = 2.0 * radii.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
         let cells = |side: f64, width: f64| (side / width).max(0.0) + 1.0;
-        let sizes = |width: f64| [2.0 * x, 2.0 * y, high - low].map(|side| cells(side, width));
+        let sizes =
+            |width: f64| [x[1] - x[0], y[1] - y[0], high - low].map(|side| cells(side, width));
         // A nearly empty room only needs wider cells.
         while sizes(width).iter().product::<f64>() > 8.0 * (radii.len() as f64 + 512.0) {
             width *= 1.25;

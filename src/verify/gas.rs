@@ -82,6 +82,8 @@ impl Gas {
             start: Start::Random {
                 z_min: self.heights[0],
                 z_max: self.heights[1],
+                x: None,
+                y: None,
                 speed: self.speed,
                 spin: 0.0,
             },

@@ -430,7 +430,7 @@ proptest! {
                 radius: Some(tank),
                 ..phase::scene::Tank::default()
             });
-        scene.start = phase::scene::Start::Random {
+        scene.start = phase::scene::Start::Random { x: None, y: None,
             z_min: heights[0].min(heights[1]),
             z_max: heights[0].max(heights[1]),
             speed,

@@ -25,6 +25,8 @@ pub(crate) fn large(friction: Option<Friction>, integrator: Integrator) -> Scene
     tank.radius = tank.radius.map(|radius| radius * factor);
     scene.spheres.count = COUNT;
     scene.start = Start::Random {
+        x: None,
+        y: None,
         z_min: -0.04,
         z_max: -0.04 + 0.1 * factor,
         speed: 1.0,

@@ -35,3 +35,4 @@ mod support;
 mod time_scales;
 mod time_step;
 mod verification;
+mod walls;

@@ -375,6 +375,8 @@ fn a_random_start_keeps_clear_of_fixed_spheres() {
         { position = [0.17, 0.0, 0.3], radius = 0.05 }], \
         door = [{ position = [0.0, -0.1, 0.4], radius = 0.03 }] }";
     let random = Start::Random {
+        x: None,
+        y: None,
         z_min: 0.04,
         z_max: 0.5,
         speed: 0.0,

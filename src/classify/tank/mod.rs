@@ -39,6 +39,7 @@ pub static TANK: Family = Family {
             .tank
             .as_ref()
             .is_some_and(|tank| tank.radius.is_some())
+            && scene.dem.walls.is_empty()
     },
     check: |sieves, scene| {
         check_steady(sieves, scene)?;

@@ -1,13 +1,12 @@
 //! Whether the spheres of a feed have room where they come in, and leave it again.
 
-use crate::dem::overlap;
 use crate::dem::process::ROUNDING;
 use crate::dem::timestep::fastest_impact;
-use crate::dem::walls::Wall;
 use crate::document::{Problem, at_most, number, rounded_down, rounded_up};
 use crate::particles::vector::Vector;
 use crate::scene::{FixedSphere, Geometry, Scene, Start, Tank, rounded};
 use crate::start;
+use crate::walls::Wall;
 
 /// Largest number of moves in search of a clear place: more than a corner between walls needs.
 const MOST_MOVES: usize = 100;
@@ -157,10 +156,10 @@ impl Scene {
             return Some(outside.to_owned());
         }
         self.dem.contact.as_ref()?;
-        let contacts = overlap::walls(self).into_iter().map(|wall| {
+        let contacts = Wall::of_scene(self).into_iter().map(|wall| {
             let contact = wall.contact(centre.into(), radius);
             (
-                wall.name(),
+                wall.name,
                 if contact.touches {
                     contact.overlap
                 } else {

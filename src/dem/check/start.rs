@@ -2,7 +2,7 @@
 
 use crate::dem::overlap::{self, Overlap, OverlapPartner};
 use crate::document::{Problem, accepted, at_least, number};
-use crate::scene::{Scene, Start, Tank, may_hold, plural, rounded};
+use crate::scene::{Scene, Start, may_hold, plural, rounded};
 use crate::start;
 
 /// Largest share of the space open to the spheres that a random start may fill. Random placement
@@ -27,7 +27,7 @@ impl Scene {
         let Start::Random { z_min, z_max, .. } = self.start else {
             return;
         };
-        let area = self.tank.as_ref().and_then(Tank::area);
+        let area = self.start_area();
         if let Some(area) = area.filter(|_| z_min <= z_max && self.misfit().is_none()) {
             self.check_room_between(area, z_min, z_max, problems);
         }
@@ -37,8 +37,12 @@ impl Scene {
     fn check_room_between(&self, area: f64, z_min: f64, z_max: f64, problems: &mut Vec<Problem>) {
         let radii = &self.spheres.radius;
         let volume = self.spheres.count as f64 * radii.mean_volume();
-        if self.dem.geometry.is_some() && self.trial_fails(z_max) {
-            let message = "the spheres find no room between those that are fixed";
+        let is_in_the_way = self.dem.geometry.is_some() || !self.dem.walls.is_empty();
+        if is_in_the_way && self.trial_fails(z_max) {
+            let message = match self.dem.geometry {
+                Some(_) => "the spheres find no room between those that are fixed",
+                None => "the spheres find no room between the walls",
+            };
             let help = "let `start.z_min` to `start.z_max` reach farther, or use fewer spheres";
             problems.push(Problem::new("start.z_max", message).help(help));
             return;

@@ -133,11 +133,6 @@ impl Process {
         self.feed.due_after(step).map_or(look, |due| look.min(due))
     }
 
-    /// Whether a door is still to open.
-    pub(super) fn is_closed(&self) -> bool {
-        self.door.is_some()
-    }
-
     /// Whether nothing more will happen: all spheres are in, and all have left or are at rest for
     /// good.
     pub(super) fn ended(&self) -> bool {
@@ -246,7 +241,7 @@ impl Process {
             .map(|i| !door.spheres.contains(&i))
             .collect();
         engine.retain(&keep);
-        engine.open_floor();
+        engine.open_doors();
         if let Some(since) = at_rest {
             self.note(since, MilestoneKind::AtRest);
         }

@@ -26,6 +26,13 @@ pub(in crate::dem) struct ProcessState {
     ended: bool,
 }
 
+impl ProcessState {
+    /// Whether a door is still to open.
+    pub(in crate::dem) fn is_closed(&self) -> bool {
+        self.is_closed
+    }
+}
+
 impl Process {
     /// The present state.
     pub(in crate::dem) fn state(&self) -> ProcessState {

@@ -3,11 +3,20 @@
 use super::contact_task::ContactSlice;
 use super::wall_contacts::{NearSphere, WallContacts};
 use crate::dem::neighbours::NearPair;
-use crate::dem::walls::TankWall;
+use crate::walls::Wall;
+use smallvec::SmallVec;
 
-/// Spheres near each wall, each with its history.
-pub(super) type AtWalls<'a, H> =
-    [Option<(TankWall, ContactSlice<'a, NearSphere, H>)>; TankWall::MOST];
+/// Walls of most scenes: a floor and four sides. Lists of more are on the heap.
+const USUAL_WALLS: usize = 5;
+
+/// The spheres near a wall, each with its history.
+pub(super) struct AtWall<'a, H> {
+    pub(super) wall: &'a Wall,
+    pub(super) near: ContactSlice<'a, NearSphere, H>,
+}
+
+/// The spheres near each wall.
+pub(super) type AtWalls<'a, H> = SmallVec<[AtWall<'a, H>; USUAL_WALLS]>;
 
 /// Candidates for contacts, in the order of the lists, each with its history.
 pub(super) struct Candidates<'a, H> {
@@ -22,20 +31,19 @@ impl<'a, H> Candidates<'a, H> {
         histories: &'a mut [H],
         walls: &'a mut [WallContacts<H>],
     ) -> Self {
-        let mut at_walls = [const { None }; TankWall::MOST];
-        for (place, wall) in at_walls.iter_mut().zip(walls) {
-            let near = ContactSlice {
-                contacts: &wall.near,
-                histories: &mut wall.histories,
-            };
-            *place = Some((wall.wall, near));
-        }
+        let at_wall = |contacts: &'a mut WallContacts<H>| AtWall {
+            wall: &contacts.wall,
+            near: ContactSlice {
+                contacts: &contacts.near,
+                histories: &mut contacts.histories,
+            },
+        };
         Self {
             pairs: ContactSlice {
                 contacts: pairs,
                 histories,
             },
-            walls: at_walls,
+            walls: walls.iter_mut().map(at_wall).collect(),
         }
     }
 }

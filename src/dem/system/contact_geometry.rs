@@ -5,11 +5,11 @@
 
 use super::contact_laws::Laws;
 use super::contact_state::{ContactState, SphereProperties};
-use crate::dem::walls::WallContact;
 use crate::forces::contact::{NormalLaw, contact_radius};
 use crate::forces::friction::{TangentialLaw, sliding_velocity};
 use crate::particles::math::inverse_square_root;
 use crate::particles::vector::Vector;
+use crate::walls::WallContact;
 
 /// 1 / x, or 0 for x = 0. Two driven or fixed partners have infinite mass: their contact moves
 /// nothing, but its force must stay finite.

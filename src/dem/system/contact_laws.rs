@@ -5,7 +5,6 @@
 
 use super::contact_geometry::{ContactGeometry, Roots};
 use super::contact_state::ContactState;
-use crate::dem::walls::Wall;
 use crate::forces::contact::NormalLaw;
 use crate::forces::friction::{
     ForceChange, History, LoadedSpring, Spring, TangentialLaw, Touch, Traction, Turning,
@@ -13,6 +12,7 @@ use crate::forces::friction::{
 };
 use crate::particles::math::inverse_square_root;
 use crate::particles::vector::Vector;
+use crate::walls::Wall;
 
 /// The time over which springs are loaded until an evaluation of forces, with the mean velocities
 /// of that time.
@@ -49,8 +49,6 @@ impl Loading {
 pub(super) struct Laws<N, T> {
     pub(super) normal: N,
     pub(super) tangential: T,
-    /// The tangential law at walls, whose coefficient of friction may differ.
-    pub(super) tangential_at_walls: T,
     pub(super) loading: Loading,
     /// Largest overlap, in radii of the smaller partner.
     pub(super) overlap_limit: f64,
@@ -107,12 +105,15 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
     pub(super) const NEEDS_EFFECTIVE_MASS: bool =
         N::NEEDS_EFFECTIVE_MASS || T::NEEDS_EFFECTIVE_MASS;
 
-    /// The laws at walls.
+    /// The laws at a wall, whose coefficient of friction may differ.
     #[inline(always)]
-    pub(super) fn at_walls(&self) -> Self {
-        Self {
-            tangential: self.tangential_at_walls,
-            ..*self
+    pub(super) fn at_wall(&self, wall: &Wall) -> Self {
+        match wall.friction_coefficient {
+            Some(coefficient) => Self {
+                tangential: self.tangential.with_coefficient(coefficient),
+                ..*self
+            },
+            None => *self,
         }
     }
 
@@ -165,22 +166,37 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
     }
 
     /// A sphere and a wall.
-    pub(super) fn wall_force<W: Wall>(
+    pub(super) fn wall_force(
         &self,
-        wall: W,
+        wall: &Wall,
         state: &ContactState,
         history: T::History,
     ) -> ContactForce {
-        let radius = state.properties[0].radius;
-        let earlier = state.earlier.as_ref();
-        let earlier = earlier.map(|earlier| {
-            let position = self.earlier_position(state.offset, earlier.velocity);
-            wall.contact(position, radius)
-        });
+        let (state, geometry) = self.meeting_at_wall(wall, state);
+        let laws = self.at_wall(wall);
+        laws.force(&state, &geometry, laws.brought_here(history, &geometry))
+    }
+
+    /// The contact of a sphere with a wall: its motion relative to the wall, and its geometry.
+    pub(super) fn meeting_at_wall(
+        &self,
+        wall: &Wall,
+        state: &ContactState,
+    ) -> (ContactState, ContactGeometry) {
+        let (radius, mut state) = (state.properties[0].radius, *state);
         let contact = wall.contact(state.offset, radius);
-        let geometry = self.geometry_at_wall(state, contact, earlier.as_ref());
-        let laws = self.at_walls();
-        laws.force(state, &geometry, laws.brought_here(history, &geometry))
+        state.spin[1] = wall.spin();
+        let place = state.offset;
+        let earlier = state.earlier.as_mut().map(|earlier| {
+            let position = self.earlier_position(place, earlier.velocity);
+            let contact = wall.contact(position, radius);
+            earlier.velocity -= wall.velocity(position, radius, &contact);
+            earlier.spin[1] = wall.spin();
+            contact
+        });
+        state.velocity -= wall.velocity(state.offset, radius, &contact);
+        let geometry = self.geometry_at_wall(&state, contact, earlier.as_ref());
+        (state, geometry)
     }
 
     /// Force and torques of a contact, whose history is in the plane across the normal.

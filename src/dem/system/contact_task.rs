@@ -1,7 +1,7 @@
 //! Forces at contacts, block by block: which candidates touch, and the resulting forces. One thread
 //! computes all of them, or each thread the forces on its own spheres.
 
-use super::candidates::{AtWalls, Candidates};
+use super::candidates::{AtWall, AtWalls, Candidates};
 use super::contact_block::ContactBlock;
 use super::contact_laws::Laws;
 use super::contact_state::SphereProperties;
@@ -13,11 +13,11 @@ use super::wall_contacts::NearSphere;
 use crate::dem::neighbours::NearPair;
 use crate::dem::profile::{self, Profile, StepPart};
 use crate::dem::threads::{split, split_shared};
-use crate::dem::walls::TankWall;
 use crate::forces::contact::NormalLaw;
 use crate::forces::friction::{History, TangentialLaw};
 use crate::particles::block::BLOCK;
 use crate::particles::vector::Vector;
+use crate::walls::WallSurface;
 use fearless_simd::{Level, Simd};
 
 /// Everything on which a contact force depends, besides the two spheres and their history.
@@ -59,6 +59,10 @@ impl<C, H> ContactSlice<'_, C, H> {
 /// A sphere whose contact is beyond the overlap limit, and the overlap (m).
 pub(super) type TooDeep = Option<(usize, f64)>;
 
+/// The first contact of a thread beyond the overlap limit: among pairs if the place is 0, else at
+/// the wall before this place.
+pub(super) type FirstTooDeep = Option<(usize, (usize, f64))>;
+
 /// Which pairs of a thread.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum PairKind {
@@ -97,8 +101,8 @@ pub(super) struct ContactTask<'a, H> {
     /// Pairs whose first sphere belongs to this thread.
     pub(super) pairs: ContactSlice<'a, NearPair, H>,
     pub(super) walls: AtWalls<'a, H>,
-    /// The first contact beyond the overlap limit among pairs and at each wall.
-    pub(super) too_deep: [TooDeep; 1 + TankWall::MOST],
+    /// The first contact beyond the overlap limit, pairs before walls.
+    pub(super) too_deep: FirstTooDeep,
 }
 
 impl<'a, H: History> ContactTask<'a, H> {
@@ -116,13 +120,8 @@ impl<'a, H: History> ContactTask<'a, H> {
             crossing: ContactSlice::none(),
             pairs: candidates.pairs,
             walls: candidates.walls,
-            too_deep: [None; 1 + TankWall::MOST],
+            too_deep: None,
         }
-    }
-
-    /// The first contact beyond the overlap limit, pairs before walls.
-    pub(super) fn first_too_deep(&self) -> TooDeep {
-        self.too_deep.into_iter().flatten().next()
     }
 
     /// Adds the forces and torques of all its contacts, in the order of the list.
@@ -159,13 +158,9 @@ impl<'a, H: History> ContactTask<'a, H> {
             return;
         }
         profile::mark(profile, StepPart::Pairs);
-        for place in 0..TankWall::MOST {
-            let Some((wall, _)) = &self.walls[place] else {
-                break;
-            };
-            let wall = *wall;
-            self.wall_forces::<S, N, T>(simd, wall, place, settings);
-            profile::mark(profile, wall.part());
+        for place in 0..self.walls.len() {
+            self.wall_forces::<S, N, T>(simd, place, settings);
+            profile::mark(profile, StepPart::of_wall(self.walls[place].wall.name));
         }
     }
 
@@ -216,7 +211,7 @@ impl<'a, H: History> ContactTask<'a, H> {
                 if kind == PairKind::Own {
                     let sphere_of = |k: usize| partners.first_to_yield(&lanes.pairs[k].sides());
                     let found = block.first_too_deep(lanes.count, sphere_of);
-                    self.too_deep[0] = self.too_deep[0].or(found);
+                    note_too_deep(&mut self.too_deep, 0, found);
                 }
             }
         }
@@ -227,15 +222,12 @@ impl<'a, H: History> ContactTask<'a, H> {
     fn wall_forces<S: Simd, N: NormalLaw, T: TangentialLaw<History = H>>(
         &mut self,
         simd: S,
-        wall: TankWall,
         place: usize,
         settings: &ContactSettings<N, T>,
     ) {
-        let Some((_, near)) = &mut self.walls[place] else {
-            return;
-        };
+        let AtWall { wall, near } = &mut self.walls[place];
         debug_assert!(near.contacts.len() <= near.histories.len());
-        let laws = settings.laws.at_walls();
+        let laws = settings.laws.at_wall(wall);
         let block = &mut self.buffers.block;
         let blocks = (near.contacts.chunks(BLOCK)).zip(near.histories.chunks_mut(BLOCK));
         let partners = &self.partners;
@@ -243,24 +235,42 @@ impl<'a, H: History> ContactTask<'a, H> {
             [NearSphere::default(); BLOCK],
             [NearSphere::default(); BLOCK],
         );
+        let mut too_deep = None;
         for (spheres, histories) in blocks {
             let lanes = full_block(spheres, &mut rest);
             let lanes = partners.local_spheres(lanes, &mut local);
             block.gather_spheres::<S, N, T>(simd, lanes, histories, partners);
-            match wall {
-                TankWall::Floor(wall) | TankWall::Side(wall) => {
-                    block.find_wall_contacts(wall, &laws);
-                }
-                TankWall::Cylinder(wall) => block.find_wall_contacts(wall, &laws),
-                TankWall::Orifice(wall) => block.find_wall_contacts(wall, &laws),
-                TankWall::Slit(wall) => block.find_wall_contacts(wall, &laws),
+            match wall.surface {
+                WallSurface::Plane(surface) => block.find_wall_contacts(surface, &laws),
+                WallSurface::Cylinder(surface) => block.find_wall_contacts(surface, &laws),
+                WallSurface::Orifice(surface) => block.find_wall_contacts(surface, &laws),
+                WallSurface::Slit(surface) => block.find_wall_contacts(surface, &laws),
+                WallSurface::Parallelogram(surface) => block.find_wall_contacts(surface, &laws),
+                WallSurface::Revolved(surface) => block.find_wall_contacts(surface, &laws),
+                WallSurface::Segment(surface) => block.find_wall_contacts(surface, &laws),
+            }
+            if let Some(motion) = &wall.motion {
+                block.see_wall_move(motion, &laws);
             }
             block.apply_laws_at_wall(&laws);
             block.store_histories(simd, histories, |k| k);
+            block.weigh(wall.weight);
             block.scatter_to_spheres::<S, T>(simd, lanes, spheres.len(), &mut self.sums);
-            let sphere_of = |k: usize| partners.first_to_yield(&[lanes[k].i]);
-            let found = block.first_too_deep(spheres.len(), sphere_of);
-            self.too_deep[1 + place] = self.too_deep[1 + place].or(found);
+            if wall.weight > 0.0 {
+                let sphere_of = |k: usize| partners.first_to_yield(&[lanes[k].i]);
+                too_deep = too_deep.or(block.first_too_deep(spheres.len(), sphere_of));
+            }
         }
+        note_too_deep(&mut self.too_deep, 1 + place, too_deep);
+    }
+}
+
+/// Notes a contact beyond the overlap limit, if it comes before the one that is known.
+#[inline(always)]
+fn note_too_deep(known: &mut FirstTooDeep, place: usize, found: TooDeep) {
+    if let Some(found) = found
+        && known.is_none_or(|(known, _)| place < known)
+    {
+        *known = Some((place, found));
     }
 }

@@ -7,15 +7,16 @@
 //! copy of the pair's history. If threads move their spheres in the same pass, these pairs read
 //! copies of the spheres around the boundary.
 
-use super::candidates::{AtWalls, Candidates};
-use super::contact_task::{Buffers, ContactSettings, ContactSlice, ContactTask, TooDeep};
+use super::candidates::{AtWall, AtWalls, Candidates};
+use super::contact_task::{
+    Buffers, ContactSettings, ContactSlice, ContactTask, FirstTooDeep, TooDeep,
+};
 use super::partners::{Copies, Partners};
 use super::sums::Sums;
 use super::wall_contacts::WallContacts;
 use crate::dem::bodies::SphereRows;
 use crate::dem::neighbours::NearPair;
 use crate::dem::threads::in_parallel;
-use crate::dem::walls::TankWall;
 use crate::forces::contact::NormalLaw;
 use crate::forces::friction::{History, TangentialLaw};
 use crate::particles::block::BLOCK;
@@ -39,7 +40,7 @@ struct ThreadRegion<H> {
     /// Near pairs whose first sphere is one of these.
     pairs: Range<usize>,
     /// Spheres near each wall.
-    walls: [Range<usize>; TankWall::MOST],
+    walls: Vec<Range<usize>>,
     crossing: Vec<NearPair>,
     crossing_history: Vec<H>,
     buffers: Box<Buffers<H>>,
@@ -71,7 +72,7 @@ impl<H: History> Division<H> {
         let region = || ThreadRegion {
             spheres: 0..0,
             pairs: 0..0,
-            walls: [const { 0..0 }; TankWall::MOST],
+            walls: Vec::new(),
             crossing: Vec::new(),
             crossing_history: Vec::new(),
             buffers: Buffers::new(),
@@ -111,10 +112,11 @@ impl<H: History> Division<H> {
             let range = bounds[0]..bounds[1];
             let from = |bound: usize| pairs.partition_point(|it| (it.i() as usize) < bound);
             region.pairs = from(range.start)..from(range.end);
-            for (place, wall) in region.walls.iter_mut().zip(walls) {
+            region.walls.clear();
+            region.walls.extend(walls.iter().map(|wall| {
                 let from = |bound: usize| wall.near.partition_point(|it| (it.i as usize) < bound);
-                *place = from(range.start)..from(range.end);
-            }
+                from(range.start)..from(range.end)
+            }));
             region.crossing.clear();
             region.crossing_history.clear();
             let mut across = range.start..range.start;
@@ -150,9 +152,10 @@ impl<H: History> Division<H> {
             mut walls,
         } = candidates;
         regions.iter_mut().map(move |region| {
-            let mut at_walls = walls.iter_mut().zip(&region.walls).map(|(wall, range)| {
-                let (wall, near) = wall.as_mut()?;
-                Some((*wall, near.split(range.len())))
+            let at_walls = walls.iter_mut().zip(&region.walls);
+            let at_walls = at_walls.map(|(at_wall, range)| AtWall {
+                wall: at_wall.wall,
+                near: at_wall.near.split(range.len()),
             });
             let contacts = ThreadContacts {
                 crossing: ContactSlice {
@@ -160,7 +163,7 @@ impl<H: History> Division<H> {
                     histories: &mut region.crossing_history,
                 },
                 pairs: pairs.split(region.pairs.len()),
-                walls: std::array::from_fn(|_| at_walls.next().flatten()),
+                walls: at_walls.collect(),
                 buffers: &mut region.buffers,
             };
             (region.spheres.clone(), contacts)
@@ -169,13 +172,13 @@ impl<H: History> Division<H> {
 
     /// Adds the forces of all contacts to the sums of all spheres. Returns the first contact that
     /// is too deep.
-    pub(super) fn evaluate<N: NormalLaw, T: TangentialLaw<History = H>>(
-        &mut self,
+    pub(super) fn evaluate<'a, N: NormalLaw, T: TangentialLaw<History = H>>(
+        &'a mut self,
         level: Level,
         settings: &ContactSettings<N, T>,
-        partners: Partners<'_>,
-        mut sums: Sums<'_>,
-        candidates: Candidates<'_, H>,
+        partners: Partners<'a>,
+        mut sums: Sums<'a>,
+        candidates: Candidates<'a, H>,
     ) -> TooDeep {
         let thread_contacts = Self::thread_contacts(&mut self.regions, candidates);
         let tasks = thread_contacts.map(|(spheres, of)| ContactTask {
@@ -185,7 +188,7 @@ impl<H: History> Division<H> {
             crossing: of.crossing,
             pairs: of.pairs,
             walls: of.walls,
-            too_deep: [None; 1 + TankWall::MOST],
+            too_deep: None,
         });
         let mut tasks: Vec<_> = tasks.collect();
         in_parallel(&mut tasks, &|task| {
@@ -228,12 +231,11 @@ fn whole_blocks(sphere: usize) -> usize {
 
 /// The first contact of all threads that is too deep, in the order of a single thread: pairs before
 /// walls.
-pub(super) fn first_too_deep(
-    of: impl Iterator<Item = [TooDeep; 1 + TankWall::MOST]> + Clone,
-) -> TooDeep {
-    let kinds = 0..=TankWall::MOST;
-    let all = kinds.flat_map(|kind| of.clone().map(move |it| it[kind]));
-    all.flatten().next()
+pub(super) fn first_too_deep(of: impl Iterator<Item = FirstTooDeep>) -> TooDeep {
+    // Of equal places the first counts.
+    of.flatten()
+        .min_by_key(|(place, _)| *place)
+        .map(|(_, found)| found)
 }
 
 /// Number of threads: one if the work is not divided.

@@ -77,7 +77,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             None => {
                 let mut task = ContactTask::of_all(partners, sums, candidates, &mut self.buffers);
                 task.add_contacts(self.level, &settings, &mut self.profile);
-                task.first_too_deep()
+                task.too_deep.map(|(_, found)| found)
             }
         };
         self.step.too_deep = self.step.too_deep.or(too_deep);
@@ -190,7 +190,6 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         Laws {
             normal: self.normal,
             tangential: self.tangential,
-            tangential_at_walls: self.tangential_at_walls,
             loading: self.loading,
             overlap_limit: self.setup.limits.overlap,
         }

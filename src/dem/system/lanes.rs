@@ -3,10 +3,10 @@
 use super::contact_laws::Laws;
 use super::contact_state::SphereProperties;
 use super::partners::Partners;
-use crate::dem::walls::WallContact;
 use crate::forces::contact::NormalLaw;
 use crate::forces::friction::TangentialLaw;
 use crate::particles::block::{BLOCK, BlockColumn, VectorColumns};
+use crate::walls::WallContact;
 
 /// A block of contacts; lanes without one repeat the first.
 #[inline(always)]

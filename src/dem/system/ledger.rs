@@ -13,12 +13,12 @@ use super::wall_contacts::NearSphere;
 use super::{Engine, System};
 use crate::dem::neighbours::NearPair;
 use crate::dem::profile::StepPart;
-use crate::dem::walls::TankWall;
 use crate::forces::contact::NormalLaw;
 use crate::forces::friction::TangentialLaw;
 use crate::particles::reorder::reorder;
 use crate::particles::vector::Vector;
 use crate::particles::{Particles, retain};
+use crate::walls::Wall;
 use serde::{Deserialize, Serialize};
 
 /// Work since the start (J).
@@ -32,6 +32,9 @@ pub(in crate::dem) struct LedgerWork {
     pub(in crate::dem) air: f64,
     /// Of the shaking.
     pub(in crate::dem) shaking: f64,
+    /// Of walls that move in themselves. Damping and tangential forces do the rest of the work at
+    /// these walls.
+    pub(in crate::dem) walls: f64,
     /// Energy of spheres that came in, minus the energy of spheres that left.
     pub(in crate::dem) brought: f64,
 }
@@ -48,6 +51,9 @@ pub(super) struct Books {
     air_torque: Vec<Vector>,
     /// The latest acceleration by the shaking (m/s2).
     shaking: Vector,
+    /// Power (W) of moving walls by the damping of their contacts with each sphere, and by
+    /// tangential forces.
+    walls: Vec<[f64; 2]>,
 }
 
 impl Books {
@@ -71,12 +77,14 @@ impl Books {
         ];
         let first = self.damping.len();
         (first == particles.len() || first == 0)
+            && self.walls.len() == first
             && parts.iter().all(|part| part.len() == first)
             && (self.air_torque.len() == first || !particles.rotate())
     }
 
     /// Makes room for this number of spheres.
     pub(super) fn resize(&mut self, spheres: usize) {
+        self.walls.resize(spheres, [0.0; 2]);
         let (contacts, air) = self.components();
         for forces in contacts.into_iter().chain(air) {
             forces.resize(spheres, Vector::ZERO);
@@ -85,6 +93,7 @@ impl Books {
 
     /// Clears the contact forces of all spheres.
     fn clear(&mut self) {
+        self.walls.fill([0.0; 2]);
         for forces in self.components().0 {
             forces.fill(Vector::ZERO);
         }
@@ -108,6 +117,7 @@ impl Books {
         for forces in contacts.into_iter().chain(air) {
             retain(forces, keep);
         }
+        retain(&mut self.walls, keep);
     }
 
     /// Puts the spheres into a new order.
@@ -117,6 +127,7 @@ impl Books {
         for forces in contacts.into_iter().chain(air) {
             reorder(forces, order);
         }
+        reorder(&mut self.walls, order);
     }
 
     /// Adds the force of a contact on sphere `i`, without its elastic part, and its torque.
@@ -130,6 +141,14 @@ impl Books {
     /// Notes the acceleration (m/s2) of all spheres by the shaking.
     pub(super) fn note_shaking(&mut self, acceleration: Vector) {
         self.shaking = acceleration;
+    }
+
+    /// Adds the power (W) of a moving wall by its contact with sphere `i`: by damping, and by
+    /// tangential forces.
+    pub(super) fn add_power_of_wall(&mut self, i: u32, [damping, tangential]: [f64; 2]) {
+        let [by_damping, by_friction] = &mut self.walls[i as usize];
+        *by_damping += damping;
+        *by_friction += tangential;
     }
 
     /// Notes what the effects of the air added to forces and torques.
@@ -151,6 +170,10 @@ impl Books {
         self.work.tangential += self.tangential[i].dot(way);
         self.work.air += self.air[i].dot(way);
         self.work.shaking += particles.mass[i] * self.shaking.dot(way);
+        let [by_damping, by_friction] = self.walls[i].map(|power| power * dt);
+        self.work.damping -= by_damping;
+        self.work.tangential -= by_friction;
+        self.work.walls += by_damping + by_friction;
         if particles.rotate() {
             let back = particles.torque[i] * (particles.inverse_inertia[i] * half);
             let turn = (particles.spin[i] - back) * dt;
@@ -228,7 +251,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         }
         for wall in &self.walls {
             for (sphere, history) in wall.near.iter().zip(&wall.histories) {
-                notes.add_at_wall(wall.wall, sphere.i, *history);
+                notes.add_at_wall(&wall.wall, sphere.i, *history);
             }
         }
     }
@@ -253,7 +276,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         }
         for (wall, near) in self.walls.iter().zip(&contacts.walls) {
             for &NearSphere { i, entry } in near {
-                notes.add_at_wall(wall.wall, i, wall.histories[entry as usize]);
+                notes.add_at_wall(&wall.wall, i, wall.histories[entry as usize]);
             }
         }
     }
@@ -296,12 +319,19 @@ impl<'a, N: NormalLaw, T: TangentialLaw> Notes<'a, N, T> {
         }
     }
 
-    fn add_at_wall(&mut self, wall: TankWall, i: u32, history: T::History) {
+    fn add_at_wall(&mut self, wall: &Wall, i: u32, history: T::History) {
         let state = ContactState::at_wall(&self.spheres, i);
         let contact = self.laws.wall_force(wall, &state, history);
         if contact.touches {
-            let [damping, tangential] = self.laws.damping_and_friction(&contact);
-            self.books.add(i, damping, tangential, contact.torque[0]);
+            let parts = self.laws.damping_and_friction(&contact);
+            let [damping, tangential] = parts.map(|force| force * wall.weight);
+            self.books
+                .add(i, damping, tangential, contact.torque[0] * wall.weight);
+            if wall.motion.is_some() {
+                let of_wall = state.velocity - contact.velocity;
+                self.books
+                    .add_power_of_wall(i, [damping.dot(of_wall), tangential.dot(of_wall)]);
+            }
         }
     }
 }

@@ -1,7 +1,6 @@
 //! Energies and number of the contacts.
 
 use super::{Contacts, System};
-use crate::dem::walls::Wall;
 use crate::forces::contact::NormalLaw;
 use crate::forces::friction::TangentialLaw;
 use crate::particles::Particles;
@@ -33,7 +32,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         let mut pairs = pairs.zip(&self.pair_history).peekable();
         let walls = self.walls.iter();
         let mut walls: Vec<_> = walls
-            .map(|wall| (wall.wall, wall.near.iter().zip(&wall.histories).peekable()))
+            .map(|wall| (&wall.wall, wall.near.iter().zip(&wall.histories).peekable()))
             .collect();
         for i in 0..radius.len() {
             let (centre, ri) = (position[i], radius[i]);
@@ -45,13 +44,14 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                     let overlap = sum - distance_squared.sqrt();
                     let effective_radius = ri * radius[j] / sum;
                     let law = &self.tangential;
-                    self.add_contact(&mut contacts, law, overlap, effective_radius, history);
+                    let [elastic, spring] = self.energies(law, overlap, effective_radius, history);
+                    contacts.elastic_energy += elastic;
+                    contacts.spring_energy += spring;
                     if self.ledger.is_some() {
                         contacts.spring_energy +=
                             self.rolling_energy([i, j], overlap, effective_radius);
                     }
-                    contacts.of_moving_spheres +=
-                        usize::from(i >= *fixed) + usize::from(j >= *fixed);
+                    contacts.of_moving_spheres += i64::from(i >= *fixed) + i64::from(j >= *fixed);
                 }
             }
             for (place, (wall, near)) in walls.iter_mut().enumerate() {
@@ -60,31 +60,35 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                 };
                 let contact = wall.contact(centre, ri);
                 if contact.touches {
-                    let law = &self.tangential_at_walls;
-                    self.add_contact(&mut contacts, law, contact.overlap, ri, history);
+                    let law = &self.laws().at_wall(wall).tangential;
+                    let [elastic, spring] = self.energies(law, contact.overlap, ri, history);
+                    contacts.elastic_energy += elastic * wall.weight;
+                    contacts.spring_energy += spring * wall.weight;
                     if self.ledger.is_some() {
-                        contacts.spring_energy +=
-                            self.rolling_energy_at_wall((i, place), contact.overlap, ri);
+                        contacts.spring_energy += wall.weight
+                            * self.rolling_energy_at_wall((i, place), contact.overlap, ri);
                     }
-                    contacts.of_moving_spheres += 1;
+                    contacts.of_moving_spheres += wall.weight as i64;
                 }
             }
         }
         contacts
     }
 
-    /// Adds the energies of a contact of this overlap (m) and effective radius (m).
-    fn add_contact(
+    /// The energies (J) of a contact of this overlap (m) and effective radius (m): elastic, and of
+    /// its tangential spring, if a ledger is kept.
+    fn energies(
         &self,
-        contacts: &mut Contacts,
         law: &T,
         overlap: f64,
         effective_radius: f64,
         history: &T::History,
-    ) {
-        contacts.elastic_energy += self.normal.elastic_energy(overlap, effective_radius);
-        if Self::HAS_HISTORY && self.ledger.is_some() {
-            contacts.spring_energy += law.energy(history, overlap, effective_radius);
-        }
+    ) -> [f64; 2] {
+        let elastic = self.normal.elastic_energy(overlap, effective_radius);
+        let spring = match Self::HAS_HISTORY && self.ledger.is_some() {
+            true => law.energy(history, overlap, effective_radius),
+            false => 0.0,
+        };
+        [elastic, spring]
     }
 }

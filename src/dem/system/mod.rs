@@ -42,7 +42,6 @@ use self::wall_contacts::WallContacts;
 use super::guard::Limits;
 use super::neighbours::{Near, NearPair, Purpose, VerletList};
 use super::profile::{self, Profile, StepPart};
-use super::walls::TankWall;
 use crate::forces::contact::NormalLaw;
 use crate::forces::effects::PlacedEffect;
 use crate::forces::friction::TangentialLaw;
@@ -52,6 +51,7 @@ use crate::particles::{Particles, Sphere, retain};
 use crate::scene::{Driven, Integrator, Neighbours};
 use crate::simulation::Instability;
 use crate::simulation::StateError;
+use crate::walls::Wall;
 use fearless_simd::Level;
 
 /// What the rest of the program asks of a system, whatever its laws.
@@ -83,14 +83,14 @@ pub(in crate::dem) trait Engine: Send {
     fn insert(&mut self, sphere: &Sphere);
     /// Removes the spheres that are not marked in `keep`.
     fn retain(&mut self, keep: &[bool]);
-    /// Opens the floor, if it has a closed opening.
-    fn open_floor(&mut self);
+    /// Opens the floor, if it has a closed opening, and takes doors away.
+    fn open_doors(&mut self);
     /// Frees the memory of contacts and lists. The motion must be over.
     fn forget_contacts(&mut self);
     /// The state from which the motion continues.
     fn state(&self) -> EngineState<'_>;
-    /// Continues from a state of the same scene.
-    fn restore(&mut self, state: EngineState<'_>) -> Result<(), StateError>;
+    /// Continues from a state of the same scene, in which doors are open or closed.
+    fn restore(&mut self, state: EngineState<'_>, doors_are_open: bool) -> Result<(), StateError>;
 }
 
 /// Energies and number of contacts.
@@ -101,15 +101,15 @@ pub(in crate::dem) struct Contacts {
     /// Energy of tangential and rolling springs (J), if a ledger is kept.
     pub(in crate::dem) spring_energy: f64,
     /// Contacts of all moving spheres. A contact between two of them counts twice.
-    pub(in crate::dem) of_moving_spheres: usize,
+    pub(in crate::dem) of_moving_spheres: i64,
 }
 
 /// What a scene specifies for a system besides its laws and spheres. It does not change.
 pub(in crate::dem) struct SystemSetup {
     /// In the order in which they act.
-    pub(in crate::dem) walls: Vec<TankWall>,
+    pub(in crate::dem) walls: Vec<Wall>,
     /// The floor with its opening open, if the opening is closed at the start.
-    pub(in crate::dem) closed_floor: Option<TankWall>,
+    pub(in crate::dem) closed_floor: Option<Wall>,
     /// Effects with a potential come first.
     pub(in crate::dem) effects: Vec<PlacedEffect>,
     /// Whether an effect needs the number of spheres below each sphere.
@@ -151,8 +151,6 @@ pub(in crate::dem) struct System<N, T: TangentialLaw> {
     setup: SystemSetup,
     normal: N,
     tangential: T,
-    /// The tangential law at walls.
-    tangential_at_walls: T,
     step: StepState,
     neighbours: NeighbourState,
     /// Histories of near pairs. The history of a law without memory has size zero.
@@ -228,7 +226,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
 
     pub(in crate::dem) fn new(
         normal: N,
-        [tangential, tangential_at_walls]: [T; 2],
+        tangential: T,
         setup: SystemSetup,
         mut particles: Particles,
     ) -> Self {
@@ -254,7 +252,6 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             setup,
             normal,
             tangential,
-            tangential_at_walls,
         }
     }
 
@@ -262,6 +259,16 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     #[inline(always)]
     fn mark(&mut self, part: StepPart) {
         profile::mark(&mut self.profile, part);
+    }
+
+    fn take_doors_away(&mut self) {
+        // The floor is the first wall.
+        if let (Some(open), Some(floor)) = (self.setup.closed_floor.take(), self.walls.first_mut())
+        {
+            floor.wall = open;
+        }
+        self.walls.iter_mut().for_each(WallContacts::open_door);
+        self.neighbours.stale = true;
     }
 
     /// Ends the part of the ledger, if there is one.
@@ -361,16 +368,9 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
         self.note_exchange(before);
     }
 
-    fn open_floor(&mut self) {
-        let Some(open) = self.setup.closed_floor.take() else {
-            return;
-        };
+    fn open_doors(&mut self) {
         let before = self.energy_in_books();
-        // The floor is the first wall.
-        if let Some(floor) = self.walls.first_mut() {
-            floor.wall = open;
-        }
-        self.neighbours.stale = true;
+        self.take_doors_away();
         self.note_exchange(before);
     }
 
@@ -391,8 +391,8 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
         self.save()
     }
 
-    fn restore(&mut self, state: EngineState<'_>) -> Result<(), StateError> {
-        self.take_up(state)
+    fn restore(&mut self, state: EngineState<'_>, doors_are_open: bool) -> Result<(), StateError> {
+        self.take_up(state, doors_are_open)
     }
 
     fn contacts(&mut self) -> Contacts {

@@ -14,12 +14,12 @@ use super::ledger::{Books, EnergyBooks};
 use super::partners::Partners;
 use crate::dem::neighbours::NearPair;
 use crate::dem::profile::StepPart;
-use crate::dem::walls::{TankWall, Wall};
 use crate::forces::contact::NormalLaw;
 use crate::forces::friction::TangentialLaw;
 use crate::forces::rolling::{RollingLaw, RollingTouch};
 use crate::particles::Particles;
 use crate::particles::vector::Vector;
+use crate::walls::Wall;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -103,7 +103,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         }
         for (wall, place) in self.walls.iter().zip(0..) {
             for sphere in &wall.near {
-                pass.add_at_wall(wall.wall, place, sphere.i);
+                pass.add_at_wall(&wall.wall, place, sphere.i);
             }
         }
         // Pairs that no longer touch have no spring, near or not.
@@ -131,7 +131,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         }
         for ((wall, place), near) in self.walls.iter().zip(0..).zip(&contacts.walls) {
             for sphere in near {
-                pass.add_at_wall(wall.wall, place, sphere.i);
+                pass.add_at_wall(&wall.wall, place, sphere.i);
             }
         }
         pass.finish();
@@ -230,6 +230,8 @@ struct Meeting {
     key: [RollingPartner; 2],
     /// The spheres among them.
     spheres: (u32, Option<u32>),
+    /// How often the contact counts.
+    weight: f64,
     effective_radius: f64,
     now: ContactGeometry,
     /// The earlier moment whose velocities load springs, if any.
@@ -285,6 +287,7 @@ impl<'a, N: NormalLaw, T: TangentialLaw> Pass<'a, N, T> {
         let meeting = Meeting {
             key,
             spheres: (i, Some(j)),
+            weight: 1.0,
             effective_radius: state.effective_radius(),
             now: self.laws.pair_geometry(&state),
             earlier,
@@ -292,23 +295,25 @@ impl<'a, N: NormalLaw, T: TangentialLaw> Pass<'a, N, T> {
         self.add(&state, &meeting);
     }
 
-    fn add_at_wall(&mut self, wall: TankWall, place: u32, i: u32) {
+    fn add_at_wall(&mut self, wall: &Wall, place: u32, i: u32) {
         let spheres = Partners::all(self.particles, self.earlier);
-        let state = ContactState::at_wall(&spheres, i);
-        let radius = state.properties[0].radius;
+        let at_rest = ContactState::at_wall(&spheres, i);
+        let radius = at_rest.properties[0].radius;
         let geometry = |position: Vector| {
             let contact = wall.contact(position, radius);
-            self.laws.geometry_at_wall(&state, contact, None)
+            self.laws.geometry_at_wall(&at_rest, contact, None)
         };
+        let (state, _) = self.laws.meeting_at_wall(wall, &at_rest);
         let meeting = Meeting {
             key: [
                 RollingPartner::of(self.particles, i),
                 RollingPartner::Wall(place),
             ],
             spheres: (i, None),
+            weight: wall.weight,
             effective_radius: radius,
             now: geometry(state.offset),
-            earlier: (state.earlier)
+            earlier: (at_rest.earlier)
                 .map(|motion| geometry(self.laws.earlier_position(state.offset, motion.velocity))),
         };
         self.add(&state, &meeting);
@@ -322,6 +327,7 @@ impl<'a, N: NormalLaw, T: TangentialLaw> Pass<'a, N, T> {
         let touch = self.touch(state, meeting);
         let [torque, moment] = self.law.torque(&touch, known.unwrap_or_default());
         self.renewed.push((meeting.key, moment));
+        let torque = torque * meeting.weight;
         let (one, other) = meeting.spheres;
         self.turn(one, torque);
         if let Some(other) = other {

@@ -4,7 +4,6 @@ use super::System;
 use super::contact_laws::{Laws, Loading};
 use super::contact_state::ContactState;
 use super::partners::Partners;
-use crate::dem::walls::Wall;
 use crate::forces::contact::NormalLaw;
 use crate::forces::friction::TangentialLaw;
 use crate::particles::vector::Vector;
@@ -115,7 +114,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                 }
                 let force = laws.map_or(Vector::ZERO, |laws| {
                     let state = ContactState::at_wall(&spheres, near.i);
-                    laws.wall_force(wall.wall, &state, *history).force
+                    laws.wall_force(&wall.wall, &state, *history).force
                 });
                 see(SeenContact {
                     sphere,

@@ -112,7 +112,11 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         }
     }
 
-    pub(super) fn take_up(&mut self, state: EngineState<'_>) -> Result<(), StateError> {
+    pub(super) fn take_up(
+        &mut self,
+        state: EngineState<'_>,
+        doors_are_open: bool,
+    ) -> Result<(), StateError> {
         let EngineState {
             step,
             moves,
@@ -139,7 +143,6 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             (None, None) => {}
             _ => return Err(StateError("its energy balance differs")),
         }
-
         self.step.number = step;
         self.step.moves = moves;
         (self.step.forces_are_zero, self.step.first_half_done) = (false, false);
@@ -162,6 +165,9 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         }
         *present = particles.into_owned();
         self.find_driven();
+        if doors_are_open {
+            self.take_doors_away();
+        }
         for (wall, known) in self.walls.iter_mut().zip(histories.walls) {
             wall.set(known);
         }

@@ -11,8 +11,8 @@
 //! from one array.
 
 use super::System;
-use super::candidates::Candidates;
-use super::contact_task::{ContactSettings, ContactSlice, ContactTask, TooDeep};
+use super::candidates::{AtWall, Candidates};
+use super::contact_task::{ContactSettings, ContactSlice, ContactTask, FirstTooDeep};
 use super::division::{ThreadContacts, first_too_deep, threads};
 use super::moves::{FirstTooFast, Found, Moves};
 use super::partners::Partners;
@@ -22,7 +22,6 @@ use crate::dem::bodies::SphereRows;
 use crate::dem::neighbours::NearPair;
 use crate::dem::profile::Profile;
 use crate::dem::threads::in_parallel;
-use crate::dem::walls::TankWall;
 use crate::forces::contact::NormalLaw;
 use crate::forces::friction::{History, TangentialLaw};
 use crate::particles::block::BLOCK;
@@ -44,8 +43,8 @@ pub(super) struct Stream<'a, H> {
     /// Copies of spheres around the boundaries.
     before: Option<Partners<'a>>,
     after: Option<Partners<'a>>,
-    /// The first contact beyond the overlap limit among pairs and at each wall.
-    too_deep: [TooDeep; 1 + TankWall::MOST],
+    /// The first contact beyond the overlap limit, pairs before walls.
+    too_deep: FirstTooDeep,
     found: Found,
     profile: Option<Box<Profile>>,
 }
@@ -133,7 +132,7 @@ impl<'a, H: History> Stream<'a, H> {
             bodies,
             before,
             after,
-            too_deep: [None; 1 + TankWall::MOST],
+            too_deep: None,
             found: Found::default(),
             profile: None,
         }
@@ -195,13 +194,15 @@ impl<'a, H: History> Stream<'a, H> {
         [crossing, pairs]: [ContactSlice<'_, NearPair, H>; 2],
         until: usize,
     ) {
-        let mut walls = [const { None }; TankWall::MOST];
-        for (next, wall) in walls.iter_mut().zip(&mut self.contacts.walls) {
-            let Some((wall, known)) = wall else { break };
-            let near = known.contacts;
+        let walls = self.contacts.walls.iter_mut().map(|at_wall| {
+            let near = at_wall.near.contacts;
             let count = near.partition_point(|it| (it.i as usize) < until);
-            *next = Some((*wall, known.split(count)));
-        }
+            AtWall {
+                wall: at_wall.wall,
+                near: at_wall.near.split(count),
+            }
+        });
+        let walls = walls.collect();
         let first = self.spheres.first;
         let (partners, [force, torque]) = Partners::of(&mut self.spheres, &[]);
         let partners = copies.unwrap_or(partners);

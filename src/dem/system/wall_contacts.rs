@@ -1,7 +1,7 @@
 //! A wall, the spheres near it, and the histories of their contacts with it.
 
-use crate::dem::walls::{TankWall, Wall};
 use crate::particles::Particles;
+use crate::walls::Wall;
 
 /// A sphere that may touch a wall, and its entry in the wall's list.
 #[derive(Clone, Copy, Debug, Default)]
@@ -15,7 +15,7 @@ pub(super) struct NearSphere {
 /// A wall, the spheres near it, and the histories of their contacts with it. Only these spheres
 /// have an entry, because few spheres of a heap are near a wall.
 pub(super) struct WallContacts<H> {
-    pub(super) wall: TankWall,
+    pub(super) wall: Wall,
     /// In the order of their indices.
     pub(super) near: Vec<NearSphere>,
     /// In the same order. The history of a law without memory has size zero.
@@ -27,7 +27,7 @@ pub(super) struct WallContacts<H> {
 impl<H: Copy + Default> WallContacts<H> {
     const HAS_HISTORY: bool = size_of::<H>() > 0;
 
-    pub(super) fn new(wall: TankWall) -> Self {
+    pub(super) fn new(wall: Wall) -> Self {
         Self {
             wall,
             near: Vec::new(),
@@ -40,11 +40,15 @@ impl<H: Copy + Default> WallContacts<H> {
     /// and clears the histories of the others. Both lists are sorted, so one pass over each
     /// suffices.
     pub(super) fn find(&mut self, particles: &Particles, margin: f64) {
+        let moving = match self.is_gone() {
+            true => 0..0,
+            false => particles.fixed..particles.len(),
+        };
         let (near, histories) = &mut self.spare;
         near.clear();
         histories.clear();
         let mut known = self.near.iter().zip(&self.histories).peekable();
-        for i in particles.fixed..particles.len() {
+        for i in moving {
             if !(self.wall).is_near(particles.position[i], particles.radius[i], margin) {
                 continue;
             }
@@ -62,6 +66,19 @@ impl<H: Copy + Default> WallContacts<H> {
         }
         std::mem::swap(&mut self.near, near);
         std::mem::swap(&mut self.histories, histories);
+    }
+
+    /// Takes the wall away, if it is a door; where a door joined it, it counts more often.
+    pub(super) fn open_door(&mut self) {
+        self.wall.weight = self.wall.weight_when_open;
+        if self.is_gone() {
+            self.set([]);
+        }
+    }
+
+    /// Whether its forces do not count.
+    fn is_gone(&self) -> bool {
+        self.wall.weight == 0.0
     }
 
     /// Gives the spheres that stay their new indices, when others are removed.
@@ -107,8 +124,8 @@ impl<H: Copy + Default> WallContacts<H> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dem::walls::Plane;
     use crate::particles::vector::Vector;
+    use crate::walls::{Plane, WallName, WallSurface};
 
     fn heights(heights: &[f64]) -> Particles {
         Particles {
@@ -129,7 +146,10 @@ mod tests {
 
     #[test]
     fn histories_stay_with_their_spheres() {
-        let mut contacts = WallContacts::new(TankWall::Floor(Plane::floor(0.0)));
+        let mut contacts = WallContacts::new(Wall::new(
+            WallSurface::Plane(Plane::floor(0.0)),
+            WallName::Floor,
+        ));
         contacts.find(&heights(&[0.9, 5.0, 0.9, 0.9, 5.0]), 0.1);
         assert_eq!(known(&contacts), [(0, 0), (2, 0), (3, 0)]);
         contacts.histories.copy_from_slice(&[7, 8, 9]);

@@ -1,5 +1,6 @@
 //! The fall along gravity: from the highest start to what ends it.
 
+use crate::particles::vector::Vector;
 use crate::scene::{Driven, Gravity, Scene, Start, StartSphere};
 
 /// Where nothing bounds the speeds of spheres.
@@ -188,8 +189,8 @@ impl Way {
         -Self { upward, ..*self }.highest(scene)
     }
 
-    /// The least height (m) of a centre of what holds spheres: of fixed spheres, and of driven ones
-    /// on their paths. Without an outlet, spheres of a door do not count, as it opens. A driven
+    /// The least height (m) of what holds spheres: of listed walls, and of the centres of fixed
+    /// spheres and of driven ones on their paths. Without an outlet, spheres of a door do not count, as it opens. A driven
     /// sphere that moves on and on along gravity counts where it starts, as seen from it the fall
     /// is the same; one that moves away sideways does not count.
     fn lowest_sphere(&self, scene: &Scene) -> Option<f64> {
@@ -209,7 +210,14 @@ impl Way {
             let [x, _, z] = listed.get(path.sphere)?.position;
             Some(self.height(x, z) + self.lowest_swing(path))
         });
-        fixed.chain(driven).reduce(f64::min)
+        let walls = scene
+            .dem
+            .walls
+            .iter()
+            .filter(|wall| has_door || !wall.is_door);
+        let upward = Vector::new(self.upward[0], 0.0, self.upward[1]);
+        let walls = walls.filter_map(|wall| wall.lowest(upward));
+        fixed.chain(driven).chain(walls).reduce(f64::min)
     }
 
     /// Whether a driven sphere moves along gravity alone, but for its swing.

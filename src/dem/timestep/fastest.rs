@@ -37,7 +37,8 @@ impl Fastest {
             _ => speed,
         };
         let of_paths = scene.dem.driven.iter().map(Driven::fastest);
-        let of_effects = of_paths.fold(of_effects, f64::max);
+        let of_walls = scene.dem.walls.iter().map(|wall| wall.fastest(reach));
+        let of_effects = of_paths.chain(of_walls).fold(of_effects, f64::max);
         let impact = start.max(fallen(fall.impact)).max(of_effects);
         let motion = impact.max(fallen(fall.motion));
         let shaken = effects.fastest_change_by_shaking();

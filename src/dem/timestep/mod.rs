@@ -75,7 +75,9 @@ fn regime(scene: &Scene) -> Regime<'_> {
         inertial_factor,
         density: *density,
         inertia_factor: shape.inertia_factor(),
-        has_walls: scene.tank.is_some() || scene.dem.geometry.is_some(),
+        has_walls: scene.tank.is_some()
+            || scene.dem.geometry.is_some()
+            || !scene.dem.walls.is_empty(),
         drives: !scene.dem.driven.is_empty(),
         fastest_impact: impact,
         fastest_motion: motion,
@@ -131,9 +133,14 @@ pub fn limits(scene: &Scene) -> Vec<Limit> {
         let collisions = contact.collisions(&regime);
         limits.extend(contact.limits(&collisions, &regime));
         // The larger coefficient of friction, of pairs or of walls, gives the smaller limit.
-        let frictions = [scene.dem.friction.clone(), scene.friction_at_walls()];
+        let of_walls = scene.dem.walls.iter().filter_map(|wall| {
+            let friction = scene.dem.friction.as_ref();
+            Some(friction?.with_coefficient(wall.friction_coefficient?))
+        });
+        let frictions = [scene.dem.friction.clone(), scene.friction_at_walls()]
+            .into_iter()
+            .chain(of_walls.map(Some));
         let of_frictions = frictions
-            .iter()
             .flatten()
             .filter_map(|it| it.limit(contact, &collisions, &regime));
         limits.extend(of_frictions.min_by(|a, b| a.seconds.total_cmp(&b.seconds)));

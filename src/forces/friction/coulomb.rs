@@ -78,6 +78,13 @@ impl CoulombLaw {
 impl TangentialLaw for CoulombLaw {
     type History = ();
 
+    fn with_coefficient(self, coefficient: f64) -> Self {
+        Self {
+            coefficient,
+            ..self
+        }
+    }
+
     #[inline(always)]
     fn traction(&self, touch: &Touch, _: &mut Spring) -> Traction {
         let sliding = touch.sliding_velocity();

@@ -81,6 +81,13 @@ impl TangentialLaw for CundallStrackLaw {
     const DRAGS: bool = true;
     type History = Spring;
 
+    fn with_coefficient(self, coefficient: f64) -> Self {
+        Self {
+            coefficient,
+            ..self
+        }
+    }
+
     #[inline(always)]
     fn load(&self, touch: &Touch, spring: Spring) -> LoadedSpring {
         let limit = self.coefficient * touch.normal_force;

@@ -84,6 +84,13 @@ impl TangentialLaw for HookeFrictionLaw {
     const DRAGS: bool = true;
     type History = Spring;
 
+    fn with_coefficient(self, coefficient: f64) -> Self {
+        Self {
+            coefficient,
+            ..self
+        }
+    }
+
     #[inline(always)]
     fn load(&self, touch: &Touch, spring: Spring) -> LoadedSpring {
         let drag = touch.sliding_velocity() * (self.damping_rate * touch.effective_mass);

@@ -117,6 +117,13 @@ impl TangentialLaw for MindlinLaw {
     const USES_CONTACT_RADIUS: bool = true;
     type History = SpringAtRadius;
 
+    fn with_coefficient(self, coefficient: f64) -> Self {
+        Self {
+            coefficient,
+            ..self
+        }
+    }
+
     #[inline(always)]
     fn keeps(&self) -> Keeps {
         self.keeps

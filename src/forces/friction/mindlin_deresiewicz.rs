@@ -254,6 +254,13 @@ impl TangentialLaw for MindlinDeresiewiczLaw {
     const BY_INCREMENTS: bool = false;
     type History = SlipHistory;
 
+    fn with_coefficient(self, coefficient: f64) -> Self {
+        Self {
+            coefficient,
+            ..self
+        }
+    }
+
     #[inline(always)]
     fn load_and_turn(&self, touch: &Touch, spring: Spring, turning: &mut Turning) -> LoadedSpring {
         let limit = self.coefficient * touch.normal_force;

@@ -250,6 +250,10 @@ pub trait TangentialLaw: Copy + Send + Sync + 'static {
         touch.traction(force)
     }
 
+    /// The same law with another coefficient of friction, for a wall.
+    #[must_use]
+    fn with_coefficient(self, coefficient: f64) -> Self;
+
     /// What its spring keeps while the contact radius changes. All but [`Keeps::Force`] need a
     /// history that [has the radius](History::HAS_RADIUS). The `spring` of
     /// [`load`](Self::load) has changed already.
@@ -293,6 +297,10 @@ pub struct Frictionless;
 impl TangentialLaw for Frictionless {
     const ROTATES: bool = false;
     type History = ();
+
+    fn with_coefficient(self, _: f64) -> Self {
+        self
+    }
 
     #[inline(always)]
     fn traction(&self, _: &Touch, _: &mut Spring) -> Traction {

@@ -113,6 +113,13 @@ impl TangentialLaw for SilbertFrictionLaw {
     const DRAGS: bool = true;
     type History = SpringAtRadius;
 
+    fn with_coefficient(self, coefficient: f64) -> Self {
+        Self {
+            coefficient,
+            ..self
+        }
+    }
+
     #[inline(always)]
     fn keeps(&self) -> Keeps {
         self.keeps

@@ -39,6 +39,8 @@ impl<C> FrictionKeys<C> for Spin {
 pub struct SpinLaw {
     /// mu / dt (1/s).
     rate: f64,
+    /// Time step (s).
+    dt: f64,
 }
 
 impl SpinLaw {
@@ -46,6 +48,7 @@ impl SpinLaw {
     pub fn new(coefficient: f64, dt: f64) -> Self {
         Self {
             rate: coefficient / dt,
+            dt,
         }
     }
 }
@@ -53,6 +56,10 @@ impl SpinLaw {
 impl TangentialLaw for SpinLaw {
     const WEIGHS: bool = true;
     type History = ();
+
+    fn with_coefficient(self, coefficient: f64) -> Self {
+        Self::new(coefficient, self.dt)
+    }
 
     #[inline(always)]
     fn traction(&self, touch: &Touch, _: &mut Spring) -> Traction {

@@ -5,6 +5,7 @@ mod driven;
 mod guards;
 mod neighbours;
 mod silo;
+mod walls;
 
 pub use crate::forces::contact::{Contact, ContactDrag, Hertz, Hooke, Linear, Silbert, Tsuji};
 pub use crate::forces::friction::{
@@ -17,6 +18,7 @@ pub use guards::Guards;
 pub use neighbours::Neighbours;
 pub(crate) use silo::MOST_HOPPER_SPHERES;
 pub use silo::{Door, FixedSphere, FixedSpheres, Geometry, Hopper, LengthUnit, Outlet, Rest};
+pub use walls::{ConeWall, CylinderWall, DiscWall, PlaneWall, PlateWall, SceneWall};
 
 use super::is_default;
 use crate::forces::effects::Effects;
@@ -37,6 +39,9 @@ pub struct DemScene {
     /// Resistance to rolling at contacts. Absent: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rolling: Option<Rolling>,
+    /// Walls of any shape, besides those of the tank. Absent: none.
+    #[serde(default, rename = "wall", skip_serializing_if = "Vec::is_empty")]
+    pub walls: Vec<SceneWall>,
     /// Fixed spheres as the walls and the door of a silo. Absent: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub geometry: Option<Geometry>,

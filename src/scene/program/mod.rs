@@ -207,6 +207,8 @@ pub(super) mod absent {
         Start::Random {
             z_min: NOWHERE,
             z_max: NOWHERE,
+            x: None,
+            y: None,
             speed: 0.0,
             spin: 0.0,
         }

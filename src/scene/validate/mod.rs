@@ -10,6 +10,7 @@ mod start;
 mod steady;
 mod tank;
 mod time;
+mod walls;
 
 pub(super) use program::complete as complete_program;
 pub(crate) use time::multiple;
@@ -18,6 +19,7 @@ use super::{
     Contact, Friction, Geometry, LIST_KEY, Radii, SCENE, START_SPHERE, Scene, Spheres, Start,
 };
 use crate::document::{Problem, any_of, number};
+use crate::particles::vector::Vector;
 
 /// Largest number of spheres: each takes up to 600 bytes of memory.
 const MOST_SPHERES: usize = 10_000_000;
@@ -57,6 +59,7 @@ impl Scene {
         self.check_tank(problems);
         self.check_opening(problems);
         self.check_friction_of_walls(problems);
+        self.check_walls(problems);
         self.check_start(problems);
         self.check_times(problems);
         self.check_silo(problems);
@@ -186,15 +189,18 @@ impl Scene {
         shape.mass(density, self.radius_range().1)
     }
 
-    /// Height (m) of the lowest thing that can hold a sphere: the floor or a fixed sphere.
+    /// Height (m) of the lowest thing that can hold a sphere: the floor a listed wall or a fixed sphere.
     pub(crate) fn lowest_support(&self) -> Option<f64> {
         let floor = self.tank.as_ref().and_then(|tank| tank.floor);
         let fixed = self.dem.geometry.as_ref().map(Geometry::spheres);
         let heights = fixed
             .iter()
             .flat_map(|fixed| fixed.walls.iter().chain(&fixed.door));
+        let upward = Vector::new(0.0, 0.0, 1.0);
+        let walls = self.dem.walls.iter().filter_map(|wall| wall.lowest(upward));
         floor
             .into_iter()
+            .chain(walls)
             .chain(heights.map(|sphere| sphere.position[2]))
             .reduce(f64::min)
     }

@@ -139,7 +139,9 @@ impl Scene {
             Some(geometry) => !geometry.spheres().door.is_empty(),
             None => false,
         };
-        let is_there = has_door || self.tank.as_ref().is_some_and(Tank::has_opening);
+        let is_there = has_door
+            || self.tank.as_ref().is_some_and(Tank::has_opening)
+            || self.dem.walls.iter().any(|wall| wall.is_door);
         if !is_there {
             let message = "[door] opens a door, but there is none";
             let help = "list the spheres of a door in [geometry], or add `orifice_radius` or \

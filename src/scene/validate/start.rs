@@ -27,10 +27,17 @@ impl Scene {
             problems.push(Problem::new("start.z_min", message).help("exchange the two"));
             return;
         }
-        if self.tank.as_ref().and_then(Tank::area).is_none() {
+        for (key, side) in ["start.x", "start.y"].into_iter().zip(self.start_box()) {
+            if side.is_some_and(|[low, high]| low > high) {
+                let message = format!("the first number of `{key}` is above the second");
+                problems.push(Problem::new(key, message).help("exchange the two"));
+                return;
+            }
+        }
+        if self.start_area().is_none() {
             let message = "a random start needs a tank with walls all around";
-            let help = "add `radius`, or `width` and `depth`, to [tank], or list the spheres with \
-                        `kind = \"list\"`";
+            let help = "add `radius`, or `width` and `depth`, to [tank], or `x` and `y` to \
+                        [start], or list the spheres with `kind = \"list\"`";
             problems.push(Problem::new("start.kind", message).help(help));
             return;
         }

@@ -7,11 +7,13 @@
 use super::{fixed, frame_name, make_folder, present, rotate};
 use crate::markup::escape;
 use crate::observe::Snapshot;
+use crate::particles::vector::Vector;
 use crate::record::RunRecord;
 use crate::render::Scenery;
 use crate::scene::FixedSphere;
 use crate::store::atomic::write_one_of_many;
 use crate::store::{StoreError, write_atomic};
+use crate::walls::Wall;
 use ndarray::{Array2, Axis};
 use std::fs;
 use std::io::{ErrorKind, Write};
@@ -22,7 +24,7 @@ use std::path::Path;
 /// the centres as points, with `radius` (m), `mass` (kg), `velocity` (m/s) and, of spheres that
 /// rotate, `spin` (rad/s). Where spheres come and go, a file holds those that are in, with `id`,
 /// the index of each. Fixed spheres are further parts of the series, `walls.vtp` and, as long as it
-/// is closed, `door.vtp`. The series is written last: when it exists, all its files do.
+/// is closed, `door.vtp`; so are the walls that the scene lists, as polygons, `surfaces.vtp`. The series is written last: when it exists, all its files do.
 ///
 /// # Errors
 /// [`StoreError::DiskFull`] or [`StoreError::Write`].
@@ -46,6 +48,11 @@ pub fn write_vtk(
             write(file, fixed_file(spheres))?;
         }
     }
+    let walls = Wall::of_scene(&record.scene).into_iter();
+    let surfaces: Vec<_> = walls.flat_map(|wall| wall.polygons()).collect();
+    if !surfaces.is_empty() {
+        write(SURFACES, polygons_file(&surfaces))?;
+    }
     let scenery = Scenery::new(&record.scene, &record.milestones);
     let spins = rotate(states);
     let mut collection = String::new();
@@ -54,7 +61,9 @@ pub fn write_vtk(
         write(&file, state_file(record, state, spins))?;
         let walls = (!fixed.walls.is_empty()).then_some(WALLS);
         let door = (!scenery.door_at(state.time).is_empty()).then_some(DOOR);
-        for (part, file) in [Some(&file[..]), walls, door].into_iter().enumerate() {
+        let surfaces = (!surfaces.is_empty()).then_some(SURFACES);
+        let parts = [Some(&file[..]), walls, door, surfaces];
+        for (part, file) in parts.into_iter().enumerate() {
             let Some(file) = file else { continue };
             collection += &format!(
                 "    <DataSet timestep=\"{:?}\" part=\"{part}\" file=\"{}/{file}\"/>\n",
@@ -78,10 +87,13 @@ pub const VTK_SIGNATURE: &str = "<?xml version=\"1.0\"?>\n<!-- phase: spheres --
 const WALLS: &str = "walls.vtp";
 const DOOR: &str = "door.vtp";
 
+/// Name of the file of listed walls.
+const SURFACES: &str = "surfaces.vtp";
+
 /// Names of the files of a series of that many states: frames and fixed spheres.
 pub fn vtk_names(states: usize) -> impl Iterator<Item = String> {
     let frames = (0..states).map(|frame| frame_name(frame, "vtp"));
-    frames.chain([WALLS, DOOR].map(str::to_owned))
+    frames.chain([WALLS, DOOR, SURFACES].map(str::to_owned))
 }
 
 /// The VTP file of a state.
@@ -122,16 +134,49 @@ fn points(mut arrays: Appended, count: usize, position: &str, data: &str) -> Vec
     // Each point is a vertex, so that it is seen without any filter.
     let connectivity = arrays.integers("connectivity", 0..count as i64);
     let offsets = arrays.integers("offsets", 1..=count as i64);
+    let vertices = format!("<Verts>\n{connectivity}{offsets}</Verts>");
+    let counts = format!("NumberOfVerts=\"{count}\" NumberOfPolys=\"0\"");
+    poly_data(&arrays, count, &counts, &[data, position, &vertices])
+}
+
+/// The VTP file of polygons.
+fn polygons_file(polygons: &[Vec<Vector>]) -> Vec<u8> {
+    let mut arrays = Appended::default();
+    let corners: Vec<f64> = (polygons.iter().flatten())
+        .flat_map(|it| [it.x, it.y, it.z])
+        .collect();
+    let count = corners.len() / 3;
+    let position = arrays.floats("Points", 3, &corners);
+    let connectivity = arrays.integers("connectivity", 0..count as i64);
+    let mut end = 0;
+    let offsets = polygons.iter().map(|polygon| {
+        end += polygon.len() as i64;
+        end
+    });
+    let offsets = arrays.integers("offsets", offsets);
+    let faces = format!("<Polys>\n{connectivity}{offsets}</Polys>");
+    let counts = format!("NumberOfVerts=\"0\" NumberOfPolys=\"{}\"", polygons.len());
+    poly_data(&arrays, count, &counts, &["", &position, &faces])
+}
+
+/// The VTP file of that many points, with counts of cells, and the elements of data, points and
+/// cells.
+fn poly_data(
+    arrays: &Appended,
+    count: usize,
+    counts: &str,
+    [data, position, cells]: &[&str; 3],
+) -> Vec<u8> {
     let mut file = format!(
         "{VTK_SIGNATURE}\n\
          <VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" \
          header_type=\"UInt64\">\n  \
          <PolyData>\n    \
-         <Piece NumberOfPoints=\"{count}\" NumberOfVerts=\"{count}\" NumberOfLines=\"0\" \
-         NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n\
+         <Piece NumberOfPoints=\"{count}\" {counts} NumberOfLines=\"0\" \
+         NumberOfStrips=\"0\">\n\
          {data}\n\
          <Points>\n{position}</Points>\n\
-         <Verts>\n{connectivity}{offsets}</Verts>\n    \
+         {cells}\n    \
          </Piece>\n  </PolyData>\n  <AppendedData encoding=\"raw\">\n_"
     )
     .into_bytes();

@@ -208,6 +208,8 @@ pub(crate) fn dropped(count: usize, friction: Option<Friction>) -> Scene {
     let side = RADIUS * libm::cbrt(count as f64);
     scene.spheres.count = count;
     scene.start = Start::Random {
+        x: None,
+        y: None,
         z_min: RADIUS,
         z_max: 4.0 * side,
         speed: 0.3,

@@ -148,6 +148,7 @@ pub(super) fn effects(scene: &Scene) -> Vec<String> {
         (tank.is_some_and(|tank| tank.radius.is_some()), "cylinder"),
         (tank.is_some_and(Tank::has_sides), "sides"),
         (tank.is_some_and(|tank| tank.floor.is_some()), "floor"),
+        (!scene.dem.walls.is_empty(), "walls"),
         (scene.dem.geometry.is_some(), "fixed spheres"),
         (matches!(scene.start, Start::Feed { .. }), "feed"),
         (scene.spot.is_some(), "spots"),

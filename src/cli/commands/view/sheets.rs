@@ -107,7 +107,7 @@ impl<'a> Sheets<'a> {
     /// Shows nothing above that height (m).
     pub(super) fn show_up_to(&mut self, top: f64) {
         for sheet in &mut self.sheets {
-            sheet.stage = sheet.stage.up_to(top);
+            sheet.stage = sheet.stage.clone().up_to(top);
         }
     }
 
@@ -115,7 +115,7 @@ impl<'a> Sheets<'a> {
     pub(super) fn limit_height(&mut self, console: &Console) {
         let top = self.top();
         for sheet in &mut self.sheets {
-            sheet.stage = sheet.stage.no_taller(TALLEST);
+            sheet.stage = sheet.stage.clone().no_taller(TALLEST);
         }
         let limit = self.top();
         if limit < top {

@@ -3,7 +3,6 @@
 use super::workspace::{HELD, Workspace};
 use crate::dem::system::System;
 use crate::dem::system::wall_contacts::{NearSphere, WallContacts};
-use crate::dem::walls::Wall;
 use crate::forces::contact::NormalLaw;
 use crate::forces::friction::{Grip, TangentialLaw};
 use crate::particles::Particles;
@@ -95,6 +94,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                 yielding,
                 turning: self.turning(i) + self.turning(j),
             },
+            &self.tangential,
         );
         work.add(i, rates);
         work.add(j, rates);
@@ -102,8 +102,10 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
 
     fn group_wall(&self, wall: &WallContacts<T::History>, work: &mut Workspace<T::History>) {
         let particles = &self.particles;
-        for &NearSphere { i: sphere, .. } in &wall.near {
-            let (wall, i) = (wall.wall, sphere as usize);
+        let (near, wall) = (&wall.near, &wall.wall);
+        let tangential = self.laws().at_wall(wall).tangential;
+        for &NearSphere { i: sphere, .. } in near {
+            let i = sphere as usize;
             let (centre, radius) = (particles.position[i], particles.radius[i]);
             if i < particles.fixed || !wall.is_near(centre, radius, work.reach[i]) {
                 continue;
@@ -129,6 +131,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                     yielding: particles.inverse_mass[i],
                     turning: self.turning(i),
                 },
+                &tangential,
             );
             work.add(i, rates);
         }
@@ -169,7 +172,12 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     }
 
     /// Squared frequency (1/s2) and damping rate (1/s) of an impact at its deepest.
-    fn rates(&self, work: &Workspace<T::History>, approach: &Approach<'_>) -> [f64; 2] {
+    fn rates(
+        &self,
+        work: &Workspace<T::History>,
+        approach: &Approach<'_>,
+        tangential: &T,
+    ) -> [f64; 2] {
         let Approach {
             spheres,
             overlap,
@@ -182,10 +190,6 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             turning,
         } = *approach;
         let normal = &self.normal;
-        let tangential = match spheres {
-            [_at_a_wall] => &self.tangential_at_walls,
-            _ => &self.tangential,
-        };
         if yielding == 0.0 {
             return [0.0; 2];
         }

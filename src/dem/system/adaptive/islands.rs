@@ -2,7 +2,6 @@
 
 use crate::dem::neighbours::NearPair;
 use crate::dem::system::wall_contacts::NearSphere;
-use crate::dem::walls::TankWall;
 
 /// Spheres that may touch one another within a step, directly or through others, and their possible
 /// contacts.
@@ -22,7 +21,7 @@ pub(in crate::dem::system) struct IslandContacts {
     /// Entries of these pairs in the histories of all near pairs.
     pub(in crate::dem::system) entries: Vec<u32>,
     /// Spheres near each wall.
-    pub(in crate::dem::system) walls: [Vec<NearSphere>; TankWall::MOST],
+    pub(in crate::dem::system) walls: Vec<Vec<NearSphere>>,
 }
 
 impl Island {
@@ -134,7 +133,11 @@ impl Islands {
             for &sphere in near {
                 if !self.is_free(sphere.i as usize) && sphere.i as usize >= fixed {
                     let first = self.first(sphere.i);
-                    self.island(first).contacts.walls[wall].push(sphere);
+                    let walls = &mut self.island(first).contacts.walls;
+                    if walls.len() <= wall {
+                        walls.resize_with(wall + 1, Vec::new);
+                    }
+                    walls[wall].push(sphere);
                 }
             }
         }

@@ -141,6 +141,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     fn keep_histories(&self, start: &mut StepStart<T::History>) {
         if Self::HAS_HISTORY {
             start.pair_history.clone_from(&self.pair_history);
+            start.wall_history.resize_with(self.walls.len(), Vec::new);
             for (kept, wall) in start.wall_history.iter_mut().zip(&self.walls) {
                 kept.clone_from(&wall.histories);
             }

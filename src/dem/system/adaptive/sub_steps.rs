@@ -5,17 +5,17 @@ use super::kick;
 use super::workspace::Workspace;
 use crate::dem::bodies::SphereRows;
 use crate::dem::system::System;
-use crate::dem::system::candidates::Candidates;
+use crate::dem::system::candidates::{AtWall, Candidates};
 use crate::dem::system::contact_laws::Loading;
 use crate::dem::system::contact_task::{ContactSlice, ContactTask};
 use crate::dem::system::partners::Partners;
 use crate::dem::system::sums::Sums;
 use crate::dem::system::wall_contacts::WallContacts;
-use crate::dem::walls::TankWall;
 use crate::forces::contact::NormalLaw;
 use crate::forces::friction::TangentialLaw;
 use crate::particles::vector::Vector;
 use crate::simulation::Instability;
+use crate::walls::Wall;
 
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     /// Moves the spheres of an island by a step, in this number of sub-steps.
@@ -154,11 +154,13 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             force,
             torque,
         };
-        let walls = self.walls.iter().map(|wall| wall.wall);
+        let walls = self.walls.iter().map(|wall| &wall.wall);
         let candidates = histories.candidates(contacts, walls);
         let mut task = ContactTask::of_all(partners, sums, candidates, &mut self.buffers);
         task.add_contacts(self.level, &settings, &mut self.profile);
-        self.step.too_deep = self.step.too_deep.or(task.first_too_deep());
+        let too_deep = task.too_deep.map(|(_, found)| found);
+        drop(task);
+        self.step.too_deep = self.step.too_deep.or(too_deep);
         self.add_rolling_of_island(contacts);
     }
 }
@@ -167,21 +169,21 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
 /// at the index of the contact, while the originals are stored among the histories of all contacts.
 struct IslandHistories<H> {
     pairs: Vec<H>,
-    walls: [Vec<H>; TankWall::MOST],
+    walls: Vec<Vec<H>>,
 }
 
 impl<H: Copy> IslandHistories<H> {
     fn of(contacts: &IslandContacts, pairs: &[H], walls: &[WallContacts<H>]) -> Self {
         let copy = |entry: u32, all: &[H]| all[entry as usize];
-        let mut at_walls = [const { Vec::new() }; TankWall::MOST];
-        for ((copies, wall), near) in at_walls.iter_mut().zip(walls).zip(&contacts.walls) {
+        let at_walls = walls.iter().zip(&contacts.walls).map(|(wall, near)| {
             let near = near.iter();
-            copies.extend(near.map(|sphere| copy(sphere.entry, &wall.histories)));
-        }
+            near.map(|sphere| copy(sphere.entry, &wall.histories))
+                .collect()
+        });
         let entries = contacts.entries.iter();
         Self {
             pairs: entries.map(|&entry| copy(entry, pairs)).collect(),
-            walls: at_walls,
+            walls: at_walls.collect(),
         }
     }
 
@@ -189,23 +191,22 @@ impl<H: Copy> IslandHistories<H> {
     fn candidates<'a>(
         &'a mut self,
         contacts: &'a IslandContacts,
-        walls: impl Iterator<Item = TankWall>,
+        walls: impl Iterator<Item = &'a Wall>,
     ) -> Candidates<'a, H> {
-        let mut at_walls = [const { None }; TankWall::MOST];
         let near = contacts.walls.iter().zip(&mut self.walls);
-        for ((place, wall), (contacts, histories)) in at_walls.iter_mut().zip(walls).zip(near) {
-            let near = ContactSlice {
+        let at_walls = walls.zip(near).map(|(wall, (contacts, histories))| AtWall {
+            wall,
+            near: ContactSlice {
                 contacts: &contacts[..],
                 histories: &mut histories[..],
-            };
-            *place = Some((wall, near));
-        }
+            },
+        });
         Candidates {
             pairs: ContactSlice {
                 contacts: &contacts.pairs,
                 histories: &mut self.pairs,
             },
-            walls: at_walls,
+            walls: at_walls.collect(),
         }
     }
 

@@ -2,7 +2,6 @@
 
 use super::islands::{Island, Islands};
 use crate::dem::system::rolling::RollingSprings;
-use crate::dem::walls::TankWall;
 use crate::particles::Particles;
 use crate::particles::vector::Vector;
 
@@ -59,7 +58,7 @@ pub(super) struct StepStart<H> {
     pub(super) force: Vec<Vector>,
     pub(super) torque: Vec<Vector>,
     pub(super) pair_history: Vec<H>,
-    pub(super) wall_history: [Vec<H>; TankWall::MOST],
+    pub(super) wall_history: Vec<Vec<H>>,
     pub(super) rolling: RollingSprings,
 }
 

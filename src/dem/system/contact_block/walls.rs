@@ -3,17 +3,17 @@
 use super::ContactBlock;
 use crate::dem::system::contact_laws::Laws;
 use crate::dem::system::contact_state::SphereProperties;
-use crate::dem::walls::Wall;
 use crate::forces::contact::{NormalLaw, contact_radius};
 use crate::forces::friction::{History, TangentialLaw};
 use crate::particles::block::BLOCK;
 use crate::particles::vector::Vector;
+use crate::walls::{Surface, SurfaceMotion};
 
 impl<H: History> ContactBlock<H> {
-    /// Finds the contact of every sphere with a wall.
+    /// Finds the contact of every sphere with the surface of a wall.
     #[inline(always)]
     pub(in crate::dem::system) fn find_wall_contacts<
-        W: Wall,
+        W: Surface,
         N: NormalLaw,
         T: TangentialLaw<History = H>,
     >(
@@ -31,6 +31,40 @@ impl<H: History> ContactBlock<H> {
                 let position = laws.earlier_position(self.offset.vector(k), velocity);
                 let contact = wall.contact(position, self.properties[0].radius[k]);
                 self.earlier_wall_contact.set(k, &contact);
+            }
+        }
+    }
+
+    /// Makes the velocities relative to a wall that moves in itself. The contacts with it are
+    /// known.
+    #[inline(always)]
+    pub(in crate::dem::system) fn see_wall_move<N: NormalLaw, T: TangentialLaw<History = H>>(
+        &mut self,
+        motion: &SurfaceMotion,
+        laws: &Laws<N, T>,
+    ) {
+        for k in 0..BLOCK {
+            let (centre, radius) = (self.offset.vector(k), self.properties[0].radius[k]);
+            if Self::HAS_HISTORY && laws.loading.age > 0.0 {
+                let velocity = self.earlier_velocity.vector(k);
+                let earlier = laws.earlier_position(centre, velocity);
+                let of_wall = motion.at_contact(earlier, radius, &self.earlier_wall_contact.at(k));
+                self.earlier_velocity.set(k, velocity - of_wall);
+            }
+            let of_wall = motion.at_contact(centre, radius, &self.wall_contact.at(k));
+            self.velocity.set(k, self.velocity.vector(k) - of_wall);
+        }
+    }
+
+    /// Multiplies the forces and torques by the weight of a wall.
+    #[inline(always)]
+    pub(in crate::dem::system) fn weigh(&mut self, weight: f64) {
+        if weight == 1.0 {
+            return;
+        }
+        for columns in [&mut self.force, &mut self.torque[0]] {
+            for value in columns.0.iter_mut().flatten() {
+                *value *= weight;
             }
         }
     }

@@ -1,6 +1,6 @@
 //! A plane wall: the floor, or a side.
 
-use super::{Wall, WallContact};
+use super::{Surface, WallContact};
 use crate::particles::vector::Vector;
 
 /// A plane, with the spheres before it.
@@ -35,7 +35,7 @@ impl Plane {
     }
 }
 
-impl Wall for Plane {
+impl Surface for Plane {
     #[inline(always)]
     fn contact(&self, centre: Vector, radius: f64) -> WallContact {
         let overlap = self.overlap(centre, radius);
