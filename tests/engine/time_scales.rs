@@ -15,7 +15,7 @@ enum Row {
 }
 use Row::{Limit, None};
 
-const ROWS: [(&str, Row); 66] = [
+const ROWS: [(&str, Row); 68] = [
     ("start.random.speed", Limit("displacement", HERTZ)),
     ("start.random.spin", Limit("Magnus lift", HERTZ)),
     ("start.list.spheres.velocity", Limit("displacement", LISTED)),
@@ -82,6 +82,8 @@ const ROWS: [(&str, Row); 66] = [
     ),
     ("driven.velocity", Limit("displacement", LISTED)),
     ("driven.angular_frequency", Limit("driven period", LISTED)),
+    ("wall.velocity", Limit("displacement", BELT)),
+    ("wall.angular_velocity", Limit("displacement", TURNING_DISC)),
     ("gravity.acceleration", Limit("displacement", HERTZ)),
     ("shaking.frequency", Limit("shaking period", HERTZ)),
     ("drag.linear", Limit("drag", HERTZ)),
@@ -193,6 +195,20 @@ const HOOKE: &str = "
     tank = { radius = 0.06, floor = 0.0 }
     start = { kind = 'random', z_min = 0.1, z_max = 0.2 }
     gravity = { acceleration = 9.8 }";
+
+const BELT: &str = "
+    spheres = { count = 1, density = 1e3, radius = 0.004 }
+    contact = { law = 'linear', stiffness = 1e3, damping = 0.0 }
+    friction = { law = 'coulomb', coefficient = 0.3, regularisation = 1.0 }
+    start = { kind = 'list', spheres = [{ position = [0, 0, 0.005] }] }
+    wall = [{ plane = { point = [0, 0, 0], normal = [0, 0, 1] }, velocity = [9.0, 0, 0] }]";
+
+const TURNING_DISC: &str = "
+    spheres = { count = 1, density = 1e3, radius = 0.004 }
+    contact = { law = 'linear', stiffness = 1e3, damping = 0.0 }
+    friction = { law = 'coulomb', coefficient = 0.3, regularisation = 1.0 }
+    start = { kind = 'list', spheres = [{ position = [0, 0, 0.005] }] }
+    wall = [{ disc = { centre = [0, 0, 0], radius = 0.1 }, angular_velocity = 90.0 }]";
 
 /// A fluid that turns so fast that its pressure is stiffer than its drag.
 const TURNING: &str = "

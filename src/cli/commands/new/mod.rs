@@ -6,7 +6,8 @@ use crate::cli::folders;
 use phase::store;
 use std::path::{Path, PathBuf};
 
-/// Write a scene, sweep, silo, spot or program file to start from, with a comment on every key.
+/// Write a file to start from, with comments: a scene, sweep, silo, spot or program, or a hopper, a
+/// drum, a shaken box.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Example: a tank, and a sweep over it
@@ -16,6 +17,8 @@ Example: a grain silo
   phase new silo my-silo
 Example: a silo drained by the spot model
   phase new spot my-drainage
+Example: a bin with a cone and a gate
+  phase new hopper my-hopper
 Example: a sweep of a program of your own, with its script
   phase new program epidemic")]
 pub(crate) struct Arguments {
@@ -43,6 +46,12 @@ enum Kind {
     Spot,
     /// A sweep of a program of your own, and a script that it runs.
     Program,
+    /// One simulation of a bin that drains through a cone.
+    Hopper,
+    /// One simulation of a drum that turns.
+    Drum,
+    /// One simulation of a shaken box.
+    Shaken,
 }
 
 const SCENE: &str = include_str!("scene.toml");
@@ -51,6 +60,9 @@ const SPOT: &str = include_str!("spot.toml");
 const PROGRAM: &str = include_str!("program.toml");
 const MODEL: &str = include_str!("model.py");
 const SWEEP: &str = include_str!("sweep.toml");
+const HOPPER: &str = include_str!("../../../../sweeps/scenes/hopper.toml");
+const DRUM: &str = include_str!("../../../../sweeps/scenes/drum.toml");
+const SHAKEN: &str = include_str!("../../../../sweeps/scenes/shaken.toml");
 
 /// The line of the starter sweep that names its scene.
 const SCENE_LINE: &str = "scene = \"tank.toml\"";
@@ -78,6 +90,9 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         (Kind::Silo, _) => SILO.to_owned(),
         (Kind::Spot, _) => SPOT.to_owned(),
         (Kind::Program, _) => program_of(&path),
+        (Kind::Hopper, _) => shipped(HOPPER),
+        (Kind::Drum, _) => shipped(DRUM),
+        (Kind::Shaken, _) => shipped(SHAKEN),
         (Kind::Sweep, Some(scene)) => sweep_of_file(&from_folder_of(&path, scene))?,
         (Kind::Sweep, None) => sweep_of_table(),
     };
@@ -95,7 +110,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         ));
     }
     let kind = match arguments.kind {
-        Kind::Scene | Kind::Silo | Kind::Spot => "scene",
+        Kind::Scene | Kind::Silo | Kind::Spot | Kind::Hopper | Kind::Drum | Kind::Shaken => "scene",
         Kind::Sweep | Kind::Program => "sweep",
     };
     console.note(format_args!(
@@ -103,6 +118,12 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
          {kind}.json` as the first line of the file"
     ));
     Ok(Exit::Done)
+}
+
+/// A shipped scene without its first line, which leads to a schema beside it.
+fn shipped(text: &str) -> String {
+    let rest = text.split_once('\n').map_or(text, |(_, rest)| rest);
+    rest.to_owned()
 }
 
 /// The path of a scene as the new file must write it: relative to the folder of the new file, which
