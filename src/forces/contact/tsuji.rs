@@ -12,8 +12,8 @@ use std::f64::consts::PI;
 
 /// Hertzian spring and a dashpot with which every impact has the same restitution, at any speed and
 /// of any two masses (Tsuji, Tanaka and Ishida, 1992; `damping coeff_restitution` of LAMMPS, `model
-/// hertz` of LIGGGHTS): F = K xi^(3/2) + alpha sqrt(m_eff K) xi^(1/4) dxi/dt. Attractive at the end of a
-/// contact.
+/// hertz` of LIGGGHTS): F = K xi^(3/2) + alpha sqrt(m_eff K) xi^(1/4) dxi/dt. Attractive at the end
+/// of a contact.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Tsuji {
@@ -87,8 +87,9 @@ fn damping_factor(restitution: f64) -> f64 {
 /// sphere (Tsuji, Tanaka and Ishida, Powder Technology 71, 239 (1992)). The restitution e has alpha
 /// = sqrt(5) z, z = -ln(e) / sqrt(pi^2 + ln(e)^2) (Antypov and Elliott, EPL 94, 50004 (2011)).
 ///
-/// `damping tsuji` of LAMMPS fits a figure of Tsuji et al. by a polynomial, which is this alpha over
-/// sqrt(2) to 2e-3: as if for the mass of one of two like spheres, but it multiplies sqrt(m_eff).
+/// `damping tsuji` of LAMMPS fits a figure of Tsuji et al. by a polynomial, which is this alpha
+/// over sqrt(2) to 2e-3: as if for the mass of one of two like spheres, but it multiplies
+/// sqrt(m_eff).
 /// So its impacts lose less than they are asked to: 0.616 is left of the speed in place of 0.5.
 ///
 /// It attracts at the end of a contact, where spheres part faster than their elasticity recovers:
