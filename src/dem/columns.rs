@@ -31,7 +31,7 @@ struct Touched {
 #[derive(Default)]
 struct ContactSums {
     /// Contacts of all spheres. A contact between two of them counts twice.
-    count: usize,
+    count: f64,
     stress: Stress,
     shear: ShearSums,
 }
@@ -96,10 +96,10 @@ impl ContactColumns {
             let one = &mut touched[contact.sphere - fixed];
             one.anything = true;
             one.wall |= contact.partner == Partner::Wall;
-            sums.count += 1;
+            sums.count += contact.weight;
             if let Partner::Sphere(other) = contact.partner {
                 touched[other - fixed].anything = true;
-                sums.count += 1;
+                sums.count += 1.0;
             }
             if let Some(layer) = &layer {
                 sums.add_force(&contact, layer);
@@ -120,7 +120,7 @@ impl ContactColumns {
         let stress = |row: usize, column: usize| sums.stress.0[row][column] / volume;
         let pressure = sums.stress.pressure() / volume;
         match column {
-            FurtherColumn::Coordination => sums.count as f64 / touched.len() as f64,
+            FurtherColumn::Coordination => sums.count / touched.len() as f64,
             FurtherColumn::ShareWithoutContact => share(|it| !it.anything),
             FurtherColumn::ShareAtWall => share(|it| it.wall),
             FurtherColumn::Pressure => pressure,

@@ -149,7 +149,7 @@ fn friction_passes_from_plate_to_plate() {
         });
         for (one, other) in ends[0].into_iter().zip(ends[1]) {
             // A contact that sticks swings on, and passes the line at another moment of its swing.
-            assert!((one - other).norm() < 3e-3, "{friction}: {one:?} {other:?}");
+            assert!((one - other).norm() < 5e-3, "{friction}: {one:?} {other:?}");
         }
         assert!(ends[1][0].x > 0.005);
     }

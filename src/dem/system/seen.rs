@@ -22,6 +22,8 @@ pub(in crate::dem) struct SeenContact {
     pub(in crate::dem) branch: Vector,
     /// Force on the sphere (N), if forces are asked for.
     pub(in crate::dem) force: Vector,
+    /// How often it counts: less than once where walls join, each of which counts there.
+    pub(in crate::dem) weight: f64,
 }
 
 /// What a sphere touches.
@@ -80,6 +82,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                     height: position[i].z,
                     branch: offset,
                     force,
+                    weight: 1.0,
                 },
                 [true, false] => SeenContact {
                     sphere: j,
@@ -87,6 +90,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                     height: position[j].z,
                     branch: -offset * (radius[j] / sum),
                     force: -force,
+                    weight: 1.0,
                 },
                 [false, true] => SeenContact {
                     sphere: i,
@@ -94,6 +98,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                     height: position[i].z,
                     branch: offset * (radius[i] / sum),
                     force,
+                    weight: 1.0,
                 },
                 [true, true] => continue,
             };
@@ -114,7 +119,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                 }
                 let force = laws.map_or(Vector::ZERO, |laws| {
                     let state = ContactState::at_wall(&spheres, near.i);
-                    laws.wall_force(&wall.wall, &state, *history).force
+                    laws.wall_force(&wall.wall, &state, *history).force * wall.wall.weight
                 });
                 see(SeenContact {
                     sphere,
@@ -122,6 +127,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                     height: centre.z,
                     branch: contact.normal * (radius - contact.overlap),
                     force,
+                    weight: wall.wall.weight,
                 });
             }
         }

@@ -33,11 +33,11 @@ use fastest::Fastest;
 use std::cell::LazyCell;
 
 /// The fastest relative speed (m/s) expected at an impact: the largest of the speeds at the start,
-/// of the fall, of driven spheres, of the air's updraught and of the air's rotation at the wall.
-/// Zero if nothing moves.
+/// of the fall, of driven spheres, of walls that slide in themselves, of the air's updraught and of
+/// the air's rotation at the wall. Zero if nothing moves.
 ///
 /// The fall is free, along gravity, from the highest start to the farthest wall or to the lowest
-/// fixed or driven sphere. If nothing stands there, it is the terminal speed under drag plus the
+/// listed wall, fixed or driven sphere. If nothing stands there, it is the terminal speed under drag plus the
 /// speed of the air. If nothing bounds it, it includes only the known speeds, and
 /// [`unbounded_speed`] gives the reason. Shaking adds the most that it changes velocities up to the
 /// first impact; later impacts may be faster.
