@@ -1,6 +1,6 @@
 //! The cylindrical wall about the z axis.
 
-use super::{Surface, WallContact};
+use super::{ContactSurface, WallContact};
 use crate::particles::math::inverse_square_root;
 use crate::particles::vector::Vector;
 
@@ -11,7 +11,7 @@ pub struct Cylinder {
     pub radius: f64,
 }
 
-impl Surface for Cylinder {
+impl ContactSurface for Cylinder {
     #[inline(always)]
     fn contact(&self, centre: Vector, radius: f64) -> WallContact {
         let reach = self.radius - radius;

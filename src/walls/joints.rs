@@ -15,7 +15,7 @@
 //! turn about one axis; and between a cylinder and an edge of a plate along it. Two planes need
 //! none, as spheres are inside both.
 
-use super::{Parallelogram, Plane, Revolved, Segment, Surface, Wall, WallSurface};
+use super::{ContactSurface, Parallelogram, Plane, Revolved, Segment, Wall, WallSurface};
 use crate::particles::vector::Vector;
 
 /// A place where walls join: a line, a circle or a point.

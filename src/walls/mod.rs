@@ -21,5 +21,5 @@ pub use parallelogram::Parallelogram;
 pub use plane::Plane;
 pub use revolved::Revolved;
 pub use segment::Segment;
-pub use surface::{Surface, WallContact, WallSurface};
+pub use surface::{ContactSurface, WallContact, WallSurface};
 pub use wall::{SurfaceMotion, Wall, WallName};

@@ -7,7 +7,7 @@
 //!
 //! The contact laws treat the edge as flat, like all walls.
 
-use super::{Surface, WallContact};
+use super::{ContactSurface, WallContact};
 use crate::particles::math::inverse_square_root;
 use crate::particles::vector::Vector;
 
@@ -93,7 +93,7 @@ fn or_zero(value: f64) -> f64 {
     if value < 0.0 { 0.0 } else { value }
 }
 
-impl Surface for Orifice {
+impl ContactSurface for Orifice {
     #[inline(always)]
     fn contact(&self, centre: Vector, radius: f64) -> WallContact {
         self.offset(centre).contact(radius)
@@ -105,7 +105,7 @@ impl Surface for Orifice {
     }
 }
 
-impl Surface for Slit {
+impl ContactSurface for Slit {
     #[inline(always)]
     fn contact(&self, centre: Vector, radius: f64) -> WallContact {
         self.offset(centre).contact(radius)

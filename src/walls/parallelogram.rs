@@ -1,6 +1,6 @@
 //! A plate without thickness between four edges.
 
-use super::{Surface, WallContact};
+use super::{ContactSurface, WallContact};
 use crate::particles::vector::Vector;
 
 /// A parallelogram, which spheres touch from both sides and at its edges.
@@ -119,7 +119,7 @@ pub(super) fn within(value: f64, least: f64, most: f64) -> f64 {
     if value > most { most } else { value }
 }
 
-impl Surface for Parallelogram {
+impl ContactSurface for Parallelogram {
     #[inline(always)]
     fn contact(&self, centre: Vector, radius: f64) -> WallContact {
         WallContact::with_point(self.offset(centre), radius)

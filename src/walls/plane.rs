@@ -1,6 +1,6 @@
 //! A plane wall: the floor, or a side.
 
-use super::{Surface, WallContact};
+use super::{ContactSurface, WallContact};
 use crate::particles::vector::Vector;
 
 /// A plane, with the spheres before it.
@@ -35,7 +35,7 @@ impl Plane {
     }
 }
 
-impl Surface for Plane {
+impl ContactSurface for Plane {
     #[inline(always)]
     fn contact(&self, centre: Vector, radius: f64) -> WallContact {
         let overlap = self.overlap(centre, radius);

@@ -1,7 +1,7 @@
 //! A line that turned about an axis: disc, annulus, tube, cone, frustum, circle.
 
 use super::parallelogram::within;
-use super::{Surface, WallContact};
+use super::{ContactSurface, WallContact};
 use crate::particles::math::inverse_square_root;
 use crate::particles::vector::Vector;
 
@@ -25,12 +25,10 @@ pub struct Revolved {
     pub ends: [f64; 2],
 }
 
-/// A place in the half plane of an axis and a centre: how far from the axis, and along it (m).
-pub(super) type Profile = [f64; 2];
-
 impl Revolved {
-    /// The surface of the line between two places of the half plane.
-    pub fn between(base: Vector, axis: Vector, from: Profile, to: Profile) -> Self {
+    /// The surface of the line between two places of the half plane: each how far from the axis,
+    /// and how far along it from the base (m).
+    pub fn between(base: Vector, axis: Vector, from: [f64; 2], to: [f64; 2]) -> Self {
         let (across, along) = (to[0] - from[0], to[1] - from[1]);
         let length = libm::hypot(across, along);
         let direction = match length > 0.0 {
@@ -52,7 +50,7 @@ impl Revolved {
     }
 
     /// The place of its line at a length (m) along it.
-    pub fn profile_at(&self, length: f64) -> Profile {
+    pub fn profile_at(&self, length: f64) -> [f64; 2] {
         let [across, along] = self.direction;
         [self.radius + across * length, along * length]
     }
@@ -77,7 +75,7 @@ impl Revolved {
     }
 }
 
-impl Surface for Revolved {
+impl ContactSurface for Revolved {
     #[inline(always)]
     fn contact(&self, centre: Vector, radius: f64) -> WallContact {
         let (offset, distance_squared) = self.offset(centre);

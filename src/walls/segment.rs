@@ -1,7 +1,7 @@
 //! A line where walls join.
 
 use super::parallelogram::within;
-use super::{Surface, WallContact};
+use super::{ContactSurface, WallContact};
 use crate::particles::vector::Vector;
 
 /// A straight line between two points, or a single point.
@@ -40,7 +40,7 @@ impl Segment {
     }
 }
 
-impl Surface for Segment {
+impl ContactSurface for Segment {
     #[inline(always)]
     fn contact(&self, centre: Vector, radius: f64) -> WallContact {
         WallContact::with_point(self.offset(centre), radius)

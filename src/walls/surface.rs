@@ -36,7 +36,7 @@ impl WallContact {
 }
 
 /// A surface that spheres touch.
-pub trait Surface: Copy + Send + 'static {
+pub trait ContactSurface: Copy + Send + 'static {
     /// The contact of a sphere at this position. It has no branches, because loops over blocks of
     /// spheres call it.
     fn contact(&self, centre: Vector, radius: f64) -> WallContact;
@@ -87,7 +87,7 @@ macro_rules! of_surface {
     };
 }
 
-impl Surface for WallSurface {
+impl ContactSurface for WallSurface {
     #[inline(always)]
     fn contact(&self, centre: Vector, radius: f64) -> WallContact {
         of_surface!(self, surface => surface.contact(centre, radius))

@@ -1,7 +1,8 @@
 //! The walls of a scene as the engine sees them.
 
 use super::{
-    Cylinder, Orifice, Parallelogram, Plane, Revolved, Slit, Surface, WallContact, WallSurface,
+    ContactSurface, Cylinder, Orifice, Parallelogram, Plane, Revolved, Slit, WallContact,
+    WallSurface,
 };
 use crate::particles::vector::Vector;
 use crate::scene::{Scene, SceneWall, Tank};
@@ -112,11 +113,11 @@ impl Wall {
 
     /// A wall of the list, at this place. `None` without a shape.
     fn listed(place: usize, wall: &SceneWall) -> Option<Self> {
-        let Placed {
+        let PlacedWall {
             surface,
             centre,
             axis,
-        } = Placed::of(wall)?;
+        } = PlacedWall::of(wall)?;
         let motion = SurfaceMotion {
             velocity: wall.velocity.unwrap_or_default().into(),
             spin: axis * wall.angular_velocity.unwrap_or(0.0),
@@ -201,7 +202,7 @@ impl Wall {
 }
 
 /// A surface of the list, with the axis about which it may turn.
-struct Placed {
+struct PlacedWall {
     surface: WallSurface,
     /// A point of the axis (m).
     centre: Vector,
@@ -209,7 +210,7 @@ struct Placed {
     axis: Vector,
 }
 
-impl Placed {
+impl PlacedWall {
     fn of(wall: &SceneWall) -> Option<Self> {
         let plane = wall.plane.as_ref().map(|it| {
             let centre = it.point.into();

@@ -96,7 +96,11 @@ fn what_a_scene_does_not_have_costs_nothing() {
     let effects = ["gravity", "swirl", "updraught", "spin damping"];
     for part in StepPart::all() {
         let absent = match part {
-            StepPart::Ledger | StepPart::Process | StepPart::Rolling | StepPart::Sides => true,
+            StepPart::Ledger
+            | StepPart::Process
+            | StepPart::Rolling
+            | StepPart::Sides
+            | StepPart::Walls => true,
             StepPart::Effect(_) => !effects.contains(&part.name()),
             _ => false,
         };

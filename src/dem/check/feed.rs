@@ -102,18 +102,22 @@ impl Scene {
     }
 
     fn check_walls_at(&self, place: FeedPlace, problems: &mut Vec<Problem>) {
-        let Some(tank) = &self.tank else { return };
         let FeedPlace {
-            position: [x, y, z],
+            position: mut clear,
             spread,
             radius,
         } = place;
-        let mut clear = [x, y, z];
         if let Some(fault) = self.fault_at(clear, radius) {
-            clear = place.clear_of(tank);
             let message = format!("spheres of radius {} m come in {fault}", number(radius));
+            let problem = Problem::new("start.position", message);
+            let tank = self.tank.as_ref().map(|tank| place.clear_of(tank));
+            let Some(inside) = tank.filter(|it| self.fault_at(*it, radius).is_none()) else {
+                problems.push(problem.help("move it away from there"));
+                return;
+            };
+            clear = inside;
             let help = format!("use `position = [{}]`", clear.map(number).join(", "));
-            problems.push(Problem::new("start.position", message).help(help));
+            problems.push(problem.help(help));
         }
         // Walls are nearest at an end.
         let [x, y, z] = clear;
@@ -151,8 +155,9 @@ impl Scene {
 
     /// What is wrong with the place of a sphere that comes in, if walls are in its way.
     fn fault_at(&self, centre: [f64; 3], radius: f64) -> Option<String> {
-        let tank = self.tank.as_ref()?;
-        if let Some(outside) = tank.outside(centre, self.dem.door.is_some()) {
+        let tank = self.tank.as_ref();
+        let is_closed = self.dem.door.is_some();
+        if let Some(outside) = tank.and_then(|tank| tank.outside(centre, is_closed)) {
             return Some(outside.to_owned());
         }
         self.dem.contact.as_ref()?;

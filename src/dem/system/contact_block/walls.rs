@@ -7,13 +7,13 @@ use crate::forces::contact::{NormalLaw, contact_radius};
 use crate::forces::friction::{History, TangentialLaw};
 use crate::particles::block::BLOCK;
 use crate::particles::vector::Vector;
-use crate::walls::{Surface, SurfaceMotion};
+use crate::walls::{ContactSurface, SurfaceMotion};
 
 impl<H: History> ContactBlock<H> {
     /// Finds the contact of every sphere with the surface of a wall.
     #[inline(always)]
     pub(in crate::dem::system) fn find_wall_contacts<
-        W: Surface,
+        W: ContactSurface,
         N: NormalLaw,
         T: TangentialLaw<History = H>,
     >(
