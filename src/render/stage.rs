@@ -54,8 +54,18 @@ impl Stage {
 
     /// The stage with lines (m), extended to include them.
     fn with_lines(mut self, lines: Vec<Vec<Vector>>) -> Self {
-        let points = lines.iter().flatten().map(|it| ([it.x, it.y, it.z], 0.0));
-        self = self.around_spheres(points.collect::<Vec<_>>());
+        for point in lines.iter().flatten() {
+            let point = [point.x, point.y, point.z];
+            if self.is_empty() {
+                self.seen = [point; 2];
+                // From now on it is not empty, however small.
+                self.lines.clone_from(&lines);
+            }
+            for (axis, value) in point.into_iter().enumerate() {
+                self.seen[0][axis] = self.seen[0][axis].min(value);
+                self.seen[1][axis] = self.seen[1][axis].max(value);
+            }
+        }
         self.lines = lines;
         self
     }

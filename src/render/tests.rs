@@ -237,3 +237,23 @@ fn png_holds_the_pixels_and_the_texts() {
     assert_eq!(reader.info().utf8_text[0].get_text().unwrap(), "Ω");
     assert_eq!(reader.info().uncompressed_latin1_text[0].text, "phase");
 }
+
+/// Symptom: half of a drum was outside its picture. Cause: a stage with a single point counted as
+/// empty, so that each further point of an outline took the place of those before it.
+#[test]
+fn a_stage_holds_all_of_its_walls() {
+    let text = "
+        spheres = { count = 1, radius = 0.01, density = 1000 }
+        start = { kind = 'list', spheres = [{ position = [0, 0, 0] }] }
+        time = { dt = 1e-3, duration = 0.1, frame_interval = 0.01 }
+        wall = [{ cylinder = { base = [0, -1, 2], axis = [0, 1, 0], radius = 0.5, length = 2 } }]
+    ";
+    let scene: crate::scene::Scene = toml::from_str(text).unwrap();
+    let [low, high] = Stage::of_scene(&scene).seen;
+    let expected = [[-0.5, -1.0, 1.5], [0.5, 1.0, 2.5]];
+    for (found, expected) in [low, high].into_iter().zip(expected) {
+        for (found, expected) in found.into_iter().zip(expected) {
+            assert!((found - expected).abs() < 2e-3, "{low:?} {high:?}");
+        }
+    }
+}

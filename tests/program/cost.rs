@@ -119,6 +119,7 @@ fn what_a_scene_does_not_have_costs_nothing() {
             | StepPart::Floor
             | StepPart::Rolling
             | StepPart::Sides
+            | StepPart::Walls
             | StepPart::Process => true,
             StepPart::Effect(_) => !["gravity", "swirl"].contains(&part.name()),
             _ => false,
