@@ -190,9 +190,9 @@ impl Way {
     }
 
     /// The least height (m) of what holds spheres: of listed walls, and of the centres of fixed
-    /// spheres and of driven ones on their paths. Without an outlet, spheres of a door do not count, as it opens. A driven
-    /// sphere that moves on and on along gravity counts where it starts, as seen from it the fall
-    /// is the same; one that moves away sideways does not count.
+    /// spheres and of driven ones on their paths. Without an outlet, doors do not count, as they
+    /// open. A driven sphere that moves on and on along gravity counts where it starts, as seen from
+    /// it the fall is the same; one that moves away sideways does not count.
     fn lowest_sphere(&self, scene: &Scene) -> Option<f64> {
         let has_door = scene.dem.door.is_none() || scene.outlet_height().is_some();
         let fixed = scene.dem.geometry.as_ref().map(|it| it.spheres());

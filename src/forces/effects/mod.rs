@@ -35,8 +35,8 @@ use serde::{Deserialize, Serialize};
 /// List of all effects, in order of application. Effects with a potential energy come first, then
 /// the shaking, which also accelerates all spheres equally. The ledger books its work as
 /// `work_of_shaking` and the work of all after it as `work_of_air`. Each line: table name, struct,
-/// name in profiles ("" for a table that is not itself a force, like the drag law or the added mass). The
-/// doc comment appears in the reference of keys, so it gives the formula.
+/// name in profiles ("" for a table that is not itself a force, like the drag law or the added
+/// mass). The doc comment appears in the reference of keys, so it gives the formula.
 macro_rules! effects {
     ($($(#[doc = $description:literal])+ $table:ident: $keys:ident = $name:literal,)+) => {
         /// The effects on single spheres. Absent effects do not exist in the simulation.

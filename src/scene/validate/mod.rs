@@ -189,7 +189,8 @@ impl Scene {
         shape.mass(density, self.radius_range().1)
     }
 
-    /// Height (m) of the lowest thing that can hold a sphere: the floor a listed wall or a fixed sphere.
+    /// Height (m) of the lowest thing that can hold a sphere: the floor, a listed wall or a fixed
+    /// sphere.
     pub(crate) fn lowest_support(&self) -> Option<f64> {
         let floor = self.tank.as_ref().and_then(|tank| tank.floor);
         let fixed = self.dem.geometry.as_ref().map(Geometry::spheres);

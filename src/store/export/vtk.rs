@@ -24,7 +24,8 @@ use std::path::Path;
 /// the centres as points, with `radius` (m), `mass` (kg), `velocity` (m/s) and, of spheres that
 /// rotate, `spin` (rad/s). Where spheres come and go, a file holds those that are in, with `id`,
 /// the index of each. Fixed spheres are further parts of the series, `walls.vtp` and, as long as it
-/// is closed, `door.vtp`; so are the walls that the scene lists, as polygons, `surfaces.vtp`. The series is written last: when it exists, all its files do.
+/// is closed, `door.vtp`; so are the walls that the scene lists, as polygons, `surfaces.vtp`. The
+/// series is written last: when it exists, all its files do.
 ///
 /// # Errors
 /// [`StoreError::DiskFull`] or [`StoreError::Write`].
