@@ -62,10 +62,8 @@ pub fn schema(file: InputFile) -> Value {
     schema
 }
 
-/// Keys of `time` that the key `accuracy` of a scene chooses; spots need no time step.
-const CHOSEN: [&str; 2] = ["dt", "frame_interval"];
-
-/// Makes keys of `time` required only in scenes without `accuracy` and without spots. The program
+/// Makes keys of `time` required only in scenes in which nothing else gives them: `accuracy` the
+/// step and the frames, `shaking` the frames and the duration; spots need no time step. The program
 /// chooses them before it checks keys, so its own table of keys requires them.
 fn need_times_without_accuracy(schema: &mut Value) {
     match schema {
@@ -76,18 +74,33 @@ fn need_times_without_accuracy(schema: &mut Value) {
             let Some(properties) = properties.filter(|it| it.contains_key("accuracy")) else {
                 return;
             };
-            let needed = properties["time"]["required"].as_array_mut();
-            let Some(needed) = needed else { return };
-            needed.retain(|key| !CHOSEN.iter().any(|chosen| key == chosen));
-            table.insert(
-                "if".to_owned(),
-                json!({ "not": { "anyOf": [
-                    { "required": ["accuracy"] },
-                    { "required": ["spot"] },
-                ] } }),
-            );
-            let then = json!({ "properties": { "time": { "required": CHOSEN } } });
-            table.insert("then".to_owned(), then);
+            let Some(needed) = properties["time"]["required"].as_array_mut() else {
+                return;
+            };
+            let table_of = |name: &str| json!({ "required": [name] });
+            let shaking = |key: &str| {
+                json!({
+                    "required": ["shaking"],
+                    "properties": { "shaking": { "required": [key] } },
+                })
+            };
+            let (accuracy, spot) = (table_of("accuracy"), table_of("spot"));
+            let given = [
+                ("dt", vec![accuracy.clone(), spot.clone()]),
+                (
+                    "frame_interval",
+                    vec![accuracy, spot, shaking("frames_per_period")],
+                ),
+                ("duration", vec![shaking("periods")]),
+            ];
+            needed.retain(|key| given.iter().all(|(other, _)| key != other));
+            let rules = given.map(|(key, others)| {
+                json!({
+                    "if": { "not": { "anyOf": others } },
+                    "then": { "properties": { "time": { "required": [key] } } },
+                })
+            });
+            table.insert("allOf".to_owned(), json!(rules));
         }
         _ => {}
     }

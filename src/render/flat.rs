@@ -274,6 +274,7 @@ mod tests {
             fixed: FixedSpheres::default(),
             opened: None,
             tank: [Some(0.06), Some(-0.2)],
+            edges: Vec::new(),
         };
         let window = [[-0.06, -0.2], [0.06, 0.1]];
         let lines = scenery.lines(&window);

@@ -131,9 +131,9 @@ fn everything_odd_is_a_picture() {
         let all = snapshot(position);
         for stage in [
             TANK,
-            empty,
+            empty.clone(),
             TANK.around([&all], &[0.01]),
-            empty.around([&all], &[0.01]),
+            empty.clone().around([&all], &[0.01]),
         ] {
             for camera in [0.0, 30.0, 90.0].map(|elevation| Camera::raised(&stage, elevation)) {
                 let image = picture(&all, &[0.01], &[RED], &stage, &camera, 20, 10);

@@ -31,9 +31,9 @@ pub fn with_joints(walls: Vec<Wall>, tolerance: f64) -> Vec<Wall> {
     let all: Vec<&Wall> = walls.iter().collect();
     let staying: Vec<&Wall> = walls.iter().filter(|wall| !wall.is_door).collect();
     let mut joints = joints_of(&all, tolerance);
-    joints
-        .iter_mut()
-        .for_each(|joint| joint.weight_when_open = 0.0);
+    for joint in &mut joints {
+        joint.weight_when_open = 0.0;
+    }
     for open in joints_of(&staying, tolerance) {
         let same = |joint: &&mut Wall| is_same(&joint.surface, &open.surface, tolerance);
         match joints.iter_mut().find(same) {

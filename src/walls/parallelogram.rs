@@ -78,7 +78,8 @@ impl Parallelogram {
     fn offset(&self, place: Vector) -> Vector {
         let ([a, b], from_corner) = (self.edges, place - self.corner);
         let [along_a, along_b] = self.dual.map(|dual| from_corner.dot(dual));
-        let inside = (along_a >= 0.0) & (along_a <= 1.0) & (along_b >= 0.0) & (along_b <= 1.0);
+        let within_edge = 0.0..=1.0;
+        let inside = within_edge.contains(&along_a) & within_edge.contains(&along_b);
         let mut least = from_corner - a * along_a - b * along_b;
         let mut squared = if inside {
             least.norm_squared()

@@ -41,7 +41,7 @@ fn energy(simulation: &mut DemSimulation) -> f64 {
 
 /// The overlap (m) at which the linear contact carries the sphere.
 fn sag() -> f64 {
-    4.0 / 3.0 * PI * 0.004_f64.powi(3) * 1000.0 * 9.8 / 2000.0
+    4.0 / 3.0 * PI * (0.004 * 0.004 * 0.004) * 1000.0 * 9.8 / 2000.0
 }
 
 /// The largest change of the energy along a run, over the energy of the motion; and where the
@@ -230,7 +230,7 @@ fn a_sphere_on_a_turntable_runs_in_circles() {
         for _ in 0..300 {
             simulation.advance(steps).unwrap();
             let [_, now] = motion(&simulation);
-            turned += before.cross(now).z.atan2(before.dot(now));
+            turned += libm::atan2(before.cross(now).z, before.dot(now));
             before = now;
         }
         let rate = turned / (300.0 * 1000.0 * 2e-6);
@@ -262,7 +262,8 @@ fn grazing_impacts_gain_nothing_beyond_the_work_of_the_wall() {
         for friction in [0.1, 0.5] {
             for degrees in [5.0, 30.0, 60.0, 76.0, 85.0] {
                 let angle = f64::to_radians(degrees);
-                let (along, towards) = (speed * angle.sin(), speed * angle.cos());
+                let (sine, cosine) = libm::sincos(angle);
+                let (along, towards) = (speed * sine, speed * cosine);
                 let place = start([0.0, 0.0, 0.0041], [along, 0.0, -towards]);
                 let text = format!(
                     "wall = [{{ plane = {{ point = [0, 0, 0], normal = [0, 0, 1] }}, \

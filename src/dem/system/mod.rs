@@ -235,7 +235,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             step: StepState::default(),
             neighbours: NeighbourState::new::<N>(&setup),
             pair_history: Vec::new(),
-            walls: setup.walls.iter().copied().map(WallContacts::new).collect(),
+            walls: setup.walls.iter().map(WallContacts::new).collect(),
             loading: Loading::present(setup.dt),
             earlier: Vec::new(),
             before: MotionBefore::default(),

@@ -27,9 +27,9 @@ pub(super) struct WallContacts<H> {
 impl<H: Copy + Default> WallContacts<H> {
     const HAS_HISTORY: bool = size_of::<H>() > 0;
 
-    pub(super) fn new(wall: Wall) -> Self {
+    pub(super) fn new(wall: &Wall) -> Self {
         Self {
-            wall,
+            wall: *wall,
             near: Vec::new(),
             histories: Vec::new(),
             spare: (Vec::new(), Vec::new()),
@@ -146,7 +146,7 @@ mod tests {
 
     #[test]
     fn histories_stay_with_their_spheres() {
-        let mut contacts = WallContacts::new(Wall::new(
+        let mut contacts = WallContacts::new(&Wall::new(
             WallSurface::Plane(Plane::floor(0.0)),
             WallName::Floor,
         ));

@@ -191,8 +191,8 @@ impl Way {
 
     /// The least height (m) of what holds spheres: of listed walls, and of the centres of fixed
     /// spheres and of driven ones on their paths. Without an outlet, doors do not count, as they
-    /// open. A driven sphere that moves on and on along gravity counts where it starts, as seen from
-    /// it the fall is the same; one that moves away sideways does not count.
+    /// open. A driven sphere that moves on and on along gravity counts where it starts, as the fall
+    /// is the same as seen from it; one that moves away sideways does not count.
     fn lowest_sphere(&self, scene: &Scene) -> Option<f64> {
         let has_door = scene.dem.door.is_none() || scene.outlet_height().is_some();
         let fixed = scene.dem.geometry.as_ref().map(|it| it.spheres());

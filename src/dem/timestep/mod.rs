@@ -37,8 +37,8 @@ use std::cell::LazyCell;
 /// the air's rotation at the wall. Zero if nothing moves.
 ///
 /// The fall is free, along gravity, from the highest start to the farthest wall or to the lowest
-/// listed wall, fixed or driven sphere. If nothing stands there, it is the terminal speed under drag
-/// plus the speed of the air. If nothing bounds it, it includes only the known speeds, and
+/// listed wall, fixed or driven sphere. If nothing stands there, it is the terminal speed under
+/// drag plus the speed of the air. If nothing bounds it, it includes only the known speeds, and
 /// [`unbounded_speed`] gives the reason. Shaking adds the most that it changes velocities up to the
 /// first impact; later impacts may be faster.
 pub fn fastest_impact(scene: &Scene) -> f64 {
