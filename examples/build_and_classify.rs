@@ -22,6 +22,8 @@ fn tank(omega: f64) -> Scene {
         shape: Shape::Sphere,
     };
     let start = Start::Random {
+        x: None,
+        y: None,
         z_min: 0.01,
         z_max: 0.15,
         speed: 0.005,
