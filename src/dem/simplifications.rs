@@ -3,7 +3,8 @@
 use crate::forces::effects::SceneFacts;
 use crate::forces::simplification::MeanSphere;
 pub use crate::forces::simplification::Simplification;
-use crate::scene::{Contact, Scene};
+use crate::scene::{Contact, Scene, SceneWall};
+use serde_json::json;
 
 /// The simplifications of a scene's effects and laws, one part at a time, whose
 /// [`Scene::simplified`] can be run.
@@ -35,7 +36,14 @@ pub fn simplifications(scene: &Scene) -> Vec<Simplification> {
             ..facts
         };
         removed.extend(effects.removed_with(None, &without_spins));
-        all.extend(friction.simplifications(contact, removed));
+        let walls = scene.dem.walls.iter();
+        let walls: Vec<SceneWall> = walls.map(SceneWall::without_friction).collect();
+        for mut simpler in friction.simplifications(contact, removed) {
+            if simpler.remove.contains(&"friction") && walls != scene.dem.walls {
+                simpler.set.push(("wall", json!(walls)));
+            }
+            all.push(simpler);
+        }
     }
     let contact = scene.dem.contact.iter();
     all.extend(contact.flat_map(Contact::simplifications));

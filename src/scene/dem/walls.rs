@@ -61,6 +61,7 @@ pub struct PlaneWall {
     #[schemars(transform = unit("m"))]
     pub point: [f64; 3],
     /// Its normal, of any length, towards the spheres.
+    #[schemars(transform = unit(""))]
     pub normal: [f64; 3],
     /// Angle (rad) by which it is turned about `tilt_axis` through `point`.
     #[serde(default, skip_serializing_if = "is_zero")]
@@ -68,6 +69,7 @@ pub struct PlaneWall {
     pub tilt: f64,
     /// The axis of `tilt`, of any length.
     #[serde(default = "along_y", skip_serializing_if = "is_along_y")]
+    #[schemars(transform = unit(""))]
     pub tilt_axis: [f64; 3],
 }
 
@@ -90,6 +92,7 @@ pub struct PlateWall {
     pub tilt: f64,
     /// The axis of `tilt`, of any length.
     #[serde(default = "along_y", skip_serializing_if = "is_along_y")]
+    #[schemars(transform = unit(""))]
     pub tilt_axis: [f64; 3],
 }
 
@@ -102,6 +105,7 @@ pub struct DiscWall {
     pub centre: [f64; 3],
     /// Its axis, of any length.
     #[serde(default = "along_z")]
+    #[schemars(transform = unit(""))]
     pub axis: [f64; 3],
     /// Its radius (m).
     #[schemars(transform = length("R_w", "radius of a wall"))]
@@ -122,6 +126,7 @@ pub struct CylinderWall {
     pub base: [f64; 3],
     /// Its axis, of any length, from there to the other end.
     #[serde(default = "along_z")]
+    #[schemars(transform = unit(""))]
     pub axis: [f64; 3],
     /// Its radius (m).
     #[schemars(transform = length("R_w", "radius of a wall"))]
@@ -142,6 +147,7 @@ pub struct ConeWall {
     pub base: [f64; 3],
     /// Its axis, of any length, from there to the other end.
     #[serde(default = "along_z")]
+    #[schemars(transform = unit(""))]
     pub axis: [f64; 3],
     /// Its radius (m) where it begins.
     #[schemars(transform = place("R_w", "radius of a wall").at_least(0.0))]
@@ -206,6 +212,16 @@ impl SceneWall {
     pub(crate) fn without_name(&self) -> Self {
         Self {
             name: None,
+            ..self.clone()
+        }
+    }
+
+    /// The same wall without friction of its own, at rest.
+    pub(crate) fn without_friction(&self) -> Self {
+        Self {
+            friction_coefficient: None,
+            velocity: None,
+            angular_velocity: None,
             ..self.clone()
         }
     }
