@@ -70,7 +70,7 @@ pub(super) fn render(
         stage,
         shadows: shadow_map(spheres, light, camera.up, scale),
         light,
-        half: unit(light + camera.viewer),
+        half: (light + camera.viewer).unit(),
         depths: depths(spheres, camera),
         reach: largest,
         places: (0..SAMPLES * SAMPLES).map(places_around).collect(),
@@ -246,7 +246,7 @@ fn places_around(ray: usize) -> Vec<[f64; 2]> {
 
 /// The first objects that the light meets.
 fn shadow_map(spheres: &[ShadedSphere], light: Vector, up: Vector, scale: f64) -> DepthMap {
-    let right = unit(up.cross(light));
+    let right = up.cross(light).unit();
     let axes = [right, light.cross(right), light];
     let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
     for sphere in spheres {
@@ -382,8 +382,4 @@ fn linear(color: Rgb) -> [f32; 3] {
 
 fn thirty_second_power(value: f64) -> f64 {
     (0..5).fold(value, |power, _| power * power)
-}
-
-fn unit(vector: Vector) -> Vector {
-    vector * (1.0 / vector.norm())
 }

@@ -29,7 +29,10 @@ enum Seam {
 /// count as joined. The places that a tank's own walls share are left out: they are corners.
 pub fn with_joints(walls: Vec<Wall>, tolerance: f64) -> Vec<Wall> {
     let all: Vec<&Wall> = walls.iter().collect();
-    let staying: Vec<&Wall> = walls.iter().filter(|wall| !wall.is_door).collect();
+    let staying: Vec<&Wall> = walls
+        .iter()
+        .filter(|wall| wall.weight_when_open != 0.0)
+        .collect();
     let mut joints = joints_of(&all, tolerance);
     for joint in &mut joints {
         joint.weight_when_open = 0.0;
@@ -60,11 +63,7 @@ fn joints_of(walls: &[&Wall], tolerance: f64) -> Vec<Wall> {
                 let surface = seam.surface();
                 let is_known = |joint: &Wall| is_same(&joint.surface, &surface, tolerance);
                 if !joints.iter().any(is_known) {
-                    joints.push(Wall {
-                        surface,
-                        is_door: false,
-                        ..**one
-                    });
+                    joints.push(Wall { surface, ..**one });
                 }
             }
         }
@@ -181,13 +180,7 @@ fn turned(surface: &WallSurface) -> Option<Revolved> {
     let upward = Vector::new(0.0, 0.0, 1.0);
     match surface {
         WallSurface::Revolved(it) => Some(*it),
-        WallSurface::Cylinder(it) => Some(Revolved {
-            base: Vector::ZERO,
-            axis: upward,
-            radius: it.radius,
-            direction: [0.0, 1.0],
-            ends: [f64::NEG_INFINITY, f64::INFINITY],
-        }),
+        WallSurface::Cylinder(it) => Some(Revolved::endless(Vector::ZERO, upward, it.radius)),
         WallSurface::Orifice(it) => Some(Revolved {
             base: Vector::new(0.0, 0.0, it.height),
             axis: upward,

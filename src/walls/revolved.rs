@@ -44,6 +44,17 @@ impl Revolved {
         }
     }
 
+    /// A tube without ends.
+    pub fn endless(base: Vector, axis: Vector, radius: f64) -> Self {
+        Self {
+            base,
+            axis,
+            radius,
+            direction: [0.0, 1.0],
+            ends: [f64::NEG_INFINITY, f64::INFINITY],
+        }
+    }
+
     /// A circle about an axis, of this radius (m).
     pub fn circle(centre: Vector, axis: Vector, radius: f64) -> Self {
         Self::between(centre, axis, [radius, 0.0], [radius, 0.0])

@@ -203,7 +203,6 @@ fn a_plate_in_a_drum_joins_along_its_edge() {
 fn joints_of_a_door_go_with_it() {
     let (x, y) = (Vector::new(1.0, 0.0, 0.0), Vector::new(0.0, 1.0, 0.0));
     let door = Wall {
-        is_door: true,
         weight_when_open: 0.0,
         ..plate(1, x, [x, y])
     };

@@ -75,16 +75,14 @@ pub struct Wall {
     pub surface: WallSurface,
     /// What messages call it.
     pub name: WallName,
-    /// Coefficient of friction, if it is not that of the spheres.
+    /// Coefficient of friction, if it differs from the spheres' own.
     pub friction_coefficient: Option<f64>,
     /// How it slides in itself. `None` at rest.
     pub motion: Option<SurfaceMotion>,
     /// How often its forces count: once; less often where walls join, each of which counts there.
     pub weight: f64,
-    /// The same as soon as the door is open.
+    /// How often they count as soon as the door is open: never if the wall is the door.
     pub weight_when_open: f64,
-    /// Whether it goes away when the door opens.
-    pub is_door: bool,
 }
 
 impl Wall {
@@ -97,7 +95,6 @@ impl Wall {
             motion: None,
             weight: 1.0,
             weight_when_open: 1.0,
-            is_door: false,
         }
     }
 
@@ -127,7 +124,6 @@ impl Wall {
             friction_coefficient: wall.friction_coefficient,
             motion: wall.moves().then_some(motion),
             weight_when_open: if wall.is_door { 0.0 } else { 1.0 },
-            is_door: wall.is_door,
             ..Self::new(surface, WallName::Listed(place))
         })
     }
@@ -235,13 +231,7 @@ impl PlacedWall {
         });
         let endless = wall.cylinder.as_ref().map(|it| {
             let (base, axis) = (it.base.into(), Vector::from(it.axis).unit());
-            let surface = Revolved {
-                base,
-                axis,
-                radius: it.radius,
-                direction: [0.0, 1.0],
-                ends: [f64::NEG_INFINITY, f64::INFINITY],
-            };
+            let surface = Revolved::endless(base, axis, it.radius);
             (WallSurface::Revolved(surface), base, axis)
         });
         let found = plane.or(plate).or(ended).or(endless);

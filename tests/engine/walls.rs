@@ -306,8 +306,7 @@ fn grazing_impacts_gain_nothing_beyond_the_work_of_the_wall() {
     }
 }
 
-/// In a drum that turns, its end discs turning with it or standing still, a sphere in free fall of
-/// the frame ends in rigid rotation only where all walls turn.
+/// Without gravity, a sphere in a tube that turns is carried along until it rolls without sliding.
 #[test]
 fn a_turning_tube_spins_up_what_it_holds() {
     let tube = "{ cylinder = { base = [0, -0.01, 0], axis = [0, 1, 0], radius = 0.05, \

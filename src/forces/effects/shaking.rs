@@ -29,7 +29,7 @@ pub struct Shaking {
         transform = quantity("f_s", "Hz", "frequency of the shaking").at_least(1e-9).at_most(1e9)
     )]
     pub frequency: Option<f64>,
-    /// Largest acceleration A w^2 of the box over that of gravity, in place of `frequency`; needs
+    /// Largest acceleration A w^2 of the box over gravity, in place of `frequency`; needs
     /// `gravity`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(
@@ -162,7 +162,7 @@ impl EffectKeys for Shaking {
             ),
             (None, Some(_)) if !falls => refuse(
                 "shaking.gamma",
-                "`shaking.gamma` is an acceleration over that of gravity, but there is no gravity",
+                "`shaking.gamma` is a multiple of gravity, but there is no gravity",
                 "use `frequency` instead, or add [gravity] with `acceleration`",
             ),
             _ => {}
