@@ -39,7 +39,7 @@ pub struct DemScene {
     /// Resistance to rolling at contacts. Absent: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rolling: Option<Rolling>,
-    /// Walls of any shape, in addition to [tank]. Absent: none.
+    /// Walls of any shape, in addition to the tank. Absent: none.
     #[serde(default, rename = "wall", skip_serializing_if = "Vec::is_empty")]
     pub walls: Vec<SceneWall>,
     /// Fixed spheres as the walls and the door of a silo. Absent: none.
