@@ -244,7 +244,7 @@ fn setup(scene: &Scene, particles: &Particles, skin: f64) -> SystemSetup {
     let tank = scene.tank.as_ref();
     let is_closed = scene.dem.door.is_some();
     SystemSetup {
-        walls: with_joints(Wall::of_scene(scene), JOINED * scene.smallest_radius()),
+        walls: with_joints(Wall::of_scene(scene), joined_within(scene)),
         closed_floor: tank
             .and_then(Wall::floor_with_opening)
             .filter(|_| is_closed),
@@ -265,6 +265,11 @@ fn setup(scene: &Scene, particles: &Particles, skin: f64) -> SystemSetup {
         sorted: false,
         flows: false,
     }
+}
+
+/// Distance within which walls of a scene count as joined (m).
+pub(super) fn joined_within(scene: &Scene) -> f64 {
+    JOINED * scene.smallest_radius()
 }
 
 /// The paths of the driven spheres of a scene, in the order of the spheres.

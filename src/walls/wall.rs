@@ -77,6 +77,8 @@ pub struct Wall {
     pub name: WallName,
     /// Coefficient of friction, if it differs from the spheres' own.
     pub friction_coefficient: Option<f64>,
+    /// The point about which its torque is measured (m): one of its axis, if it has one.
+    pub centre: Vector,
     /// How it slides in itself. `None` at rest.
     pub motion: Option<SurfaceMotion>,
     /// How often its forces count: once; less often where walls join, each of which counts there.
@@ -92,6 +94,7 @@ impl Wall {
             surface,
             name,
             friction_coefficient: None,
+            centre: Vector::ZERO,
             motion: None,
             weight: 1.0,
             weight_when_open: 1.0,
@@ -122,6 +125,7 @@ impl Wall {
         };
         Some(Self {
             friction_coefficient: wall.friction_coefficient,
+            centre,
             motion: wall.moves().then_some(motion),
             weight_when_open: if wall.is_door { 0.0 } else { 1.0 },
             ..Self::new(surface, WallName::Listed(place))
