@@ -73,7 +73,8 @@ impl CaseFamily for Columns {
                 self.dt,
             )
         };
-        scene.output.walls = (scene.wall_columns()).any(|column| bench.expects(&column.name));
+        let asks_for_walls = (scene.wall_columns()).any(|column| bench.expects(&column.name));
+        scene.output.walls = asks_for_walls;
         let mut simulation = DemSimulation::new(&scene)?;
         bench.advance_for(&mut simulation, self.duration, self.dt)?;
         let declared = simulation.columns();

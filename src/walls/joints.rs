@@ -53,21 +53,18 @@ pub fn with_joints(walls: Vec<Wall>, tolerance: f64) -> Vec<Wall> {
 }
 
 /// Which walls share the forces of each wall or joint, by their places: for `joined`, the first
-/// `count` of which are walls and the rest the joints that [`with_joints`] found between them. A wall
-/// keeps its own; a joint's belong to the walls that hold it.
+/// `count` of which are walls and the rest the joints that [`with_joints`] found between them. A
+/// wall keeps its own; a joint's belong to the walls that hold it.
 pub fn sharers(joined: &[Wall], count: usize, tolerance: f64) -> Vec<Vec<usize>> {
     let (walls, joints) = joined.split_at(count);
     let of_walls = (0..count).map(|place| vec![place]);
     let of_joints = joints.iter().map(|joint| {
-        let mut all = walls.iter().enumerate();
-        let named = all.clone().find(|(_, wall)| wall.name == joint.name);
-        let holding = all
-            .by_ref()
-            .filter(|(_, wall)| holds(&wall.surface, &joint.surface, tolerance));
-        let places: Vec<usize> = holding.map(|(place, _)| place).collect();
-        match places.is_empty() {
-            true => named.into_iter().map(|(place, _)| place).collect(),
-            false => places,
+        let is_held = |place: &usize| holds(&walls[*place].surface, &joint.surface, tolerance);
+        let holding: Vec<usize> = (0..count).filter(is_held).collect();
+        let named = || walls.iter().position(|wall| wall.name == joint.name);
+        match holding.is_empty() {
+            true => named().into_iter().collect(),
+            false => holding,
         }
     });
     of_walls.chain(of_joints).collect()
