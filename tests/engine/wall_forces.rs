@@ -287,5 +287,6 @@ fn torques_hold_those_of_rolling_resistance() {
     let weight = Vector::new(sine, 0.0, -cosine) * WEIGHT;
     assert_near(force, weight, 1e-6 * WEIGHT);
     let about_point = (place - Vector::new(1.0, 2.0, 0.0)).cross(weight);
-    assert_near(torque, about_point, 1e-5 * WEIGHT * 0.004);
+    // Less than the overlap times the friction; the resistance itself is 0.2 of this product.
+    assert_near(torque, about_point, 1e-3 * WEIGHT * 0.004);
 }
