@@ -42,7 +42,7 @@ impl Scene {
         let of_tank = self.tank.iter().flat_map(|tank| tank.wall_names());
         let of_tank = of_tank.map(|name| (name.to_owned(), "the origin"));
         let listed = self.dem.walls.iter().enumerate();
-        of_tank.chain(listed.map(|(place, wall)| (wall.called(place), wall.centre_key())))
+        of_tank.chain(listed.map(|(place, wall)| (wall.called(place), wall.torque_centre())))
     }
 
     /// The columns that runs have with `output.walls`, wall by wall.

@@ -208,8 +208,8 @@ impl SceneWall {
             .filter_map(|(key, is_there)| is_there.then_some(key))
     }
 
-    /// The key of the point about which its torque is measured.
-    pub(crate) fn centre_key(&self) -> &'static str {
+    /// What its torque is about, in words.
+    pub(crate) fn torque_centre(&self) -> &'static str {
         match self.shapes().next() {
             Some("plane") => "its `point`",
             Some("plate") => "its `corner`",
