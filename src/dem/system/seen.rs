@@ -65,7 +65,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         for (pair, history) in pairs.zip(&self.pair_history) {
             let [i, j] = pair.sides().map(|side| side as usize);
             let sum = radius[i] + radius[j];
-            let offset = position[i] - position[j];
+            let offset = particles.domain.offset(position[i], position[j]);
             if offset.norm_squared() >= sum * sum {
                 continue;
             }
