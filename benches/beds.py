@@ -157,3 +157,47 @@ class Drainage(Box):
     def of_one_frame(self, law, steps):
         changes = {"duration = 200.0": f"duration = {steps * self.dt!r}"}
         return self.replaced(self.text, changes | {"frame_interval = 0.1": f"frame_interval = {steps * self.dt!r}"})
+
+
+class Chute(Bed):
+    """The chute of LAMMPS's benchmark while it flows, from the last state of a run of `chute.toml`, with all its motion."""
+
+    columns = Drainage.columns
+    radius, density, dt, laws, weight = 0.5, 1.0, 1e-4, ["hooke"], math.pi / 6
+    stir = {"hooke": 100.0}
+    # Frozen spheres along x and y, a diameter apart; the slope in degrees.
+    frozen, slope = (40, 20), 26.0
+
+    def __init__(self, count, phase, folder):
+        self.folder, self.count = folder, int(count)
+        places = [(i - (nx - 1) / 2, j - (ny - 1) / 2, 0.0) for nx, ny in [self.frozen] for i in range(nx) for j in range(ny)]
+        self.bottom = places
+        walls = ",\n".join(f"    {{ position = [{x}, {y}, {z}], radius = 0.5 }}" for x, y, z in places)
+        geometry = f"[geometry]\nkind = \"list\"\nwalls = [\n{walls},\n]\n"
+        text = self.replaced((FOLDER / "chute.toml").read_text(), {"count = 31200": f"count = {self.count}"})
+        before, after = text.split("# geometry", 1)
+        text = before + geometry + after.split("\n", 1)[1]
+        height = 1.0 + self.count * math.pi / 6 / (0.25 * math.prod(self.frozen))
+        text = self.replaced(text, {"z_max = 90.0": f"z_max = {height!r}"})
+        self.text = self.replaced(text, {"tilt = 0.0": f"tilt = {math.radians(self.slope)!r}"})
+        # They fall, and then flow.
+        record = self.run(phase, "settled", self.replaced(text, self.times(40.0)))
+        self.take(phase, record, [side / 2 for side in self.frozen])
+        flowing = self.from_file(self.replaced(self.text, self.times(40.0)))
+        self.take(phase, self.run(phase, "flowing", flowing), [side / 2 for side in self.frozen])
+
+    @staticmethod
+    def times(duration, dt=4e-4):
+        return {"dt = 1e-4": f"dt = {dt!r}", "duration = 1.0": f"duration = {duration!r}", "frame_interval = 1.0": f"frame_interval = {duration!r}"}
+
+    def run(self, phase, name, text):
+        (self.folder / f"{name}.toml").write_text(text)
+        record = self.folder / f"{name}.h5"
+        output([phase, "run", self.folder / f"{name}.toml", "--out", record, "--threads", str(os.cpu_count() or 1)])
+        return record
+
+    def lammps(self, law):
+        return "in.chute.lammps", dict(skin=0.1)
+
+    def of_one_frame(self, law, steps):
+        return self.replaced(self.text, self.times(steps * self.dt, self.dt))

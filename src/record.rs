@@ -66,6 +66,19 @@ impl RunRecord {
         }
     }
 
+    /// The record with every sphere at its image in the box of a periodic space, as pictures and
+    /// other programs show it.
+    #[must_use]
+    pub fn wrapped(mut self) -> Self {
+        let domain = self.scene.domain();
+        if !domain.is_open() {
+            for state in self.snapshots.iter_mut().chain(&mut self.trajectory) {
+                *state = state.wrapped(domain).into_owned();
+            }
+        }
+        self
+    }
+
     /// Those states without the one that broke a guard, whose numbers mean nothing.
     pub fn sound_states(&self) -> &[Snapshot] {
         let states = self.states().all();

@@ -9,10 +9,10 @@
 
 use super::neighbours::Reference;
 use super::threads::{split, split_shared};
-use crate::particles::Particles;
 use crate::particles::block::{BLOCK, ROWS, VectorColumns, row};
 use crate::particles::bodies::{Asked, Bodies};
 use crate::particles::vector::Vector;
+use crate::particles::{Domain, Particles};
 use fearless_simd::Simd;
 use std::ops::Range;
 
@@ -20,6 +20,7 @@ use std::ops::Range;
 pub(super) struct SphereRows<'a> {
     /// Index of the first one.
     pub(super) first: usize,
+    pub(super) domain: Domain,
     pub(super) position: &'a mut [Vector],
     pub(super) velocity: &'a mut [Vector],
     pub(super) force: &'a mut [Vector],
@@ -39,6 +40,7 @@ impl<'a> SphereRows<'a> {
     pub(super) fn new(particles: &'a mut Particles, reference: &'a [Reference]) -> Self {
         Self {
             first: 0,
+            domain: particles.domain,
             position: &mut particles.position,
             velocity: &mut particles.velocity,
             force: &mut particles.force,
@@ -62,6 +64,7 @@ impl<'a> SphereRows<'a> {
     pub(super) fn part(&mut self, range: Range<usize>) -> SphereRows<'_> {
         let mut all = SphereRows {
             first: self.first,
+            domain: self.domain,
             position: self.position,
             velocity: self.velocity,
             force: self.force,
@@ -84,6 +87,7 @@ impl<'a> SphereRows<'a> {
         self.first += count.min(self.len());
         Self {
             first,
+            domain: self.domain,
             position: split(&mut self.position, count),
             velocity: split(&mut self.velocity, count),
             force: split(&mut self.force, count),

@@ -98,10 +98,16 @@ impl Limits {
                 detail: format!("spin of {:.4e} rad/s", particles.spin[sphere].norm()),
             });
         }
+        // Along a period there is no bound.
+        let [x, y, z] = particles.domain.periods();
+        let within = |place: f64, bound: f64, period: Option<f64>| match period {
+            Some(_) => place.is_finite(),
+            None => place.abs() <= bound,
+        };
         let outside = |centre: &Vector| {
-            !(centre.x.abs() <= self.horizontal
-                && centre.y.abs() <= self.horizontal
-                && centre.z.abs() <= self.vertical)
+            !(within(centre.x, self.horizontal, x)
+                && within(centre.y, self.horizontal, y)
+                && within(centre.z, self.vertical, z))
         };
         let mut all = particles.position.iter().enumerate();
         let found = all.find(|(i, centre)| outside(centre) && !particles.is_prescribed(*i));

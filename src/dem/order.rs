@@ -35,13 +35,14 @@ pub(super) fn found_anew(particles: &Particles) -> Option<Vec<u32>> {
     let moving = particles.fixed..particles.len();
     let position = &particles.position;
     let width = 2.0 * particles.largest_radius();
-    let low = position[moving.clone()].iter().fold(
+    let place = |i: usize| particles.domain.wrapped(position[i]);
+    let low = moving.clone().map(place).fold(
         Vector::new(f64::INFINITY, f64::INFINITY, f64::INFINITY),
         |low, at| Vector::new(low.x.min(at.x), low.y.min(at.y), low.z.min(at.z)),
     );
     let cell = |offset: f64| ((offset / width) as u64).min(MOST);
     let key = |i: usize| {
-        let offset = position[i] - low;
+        let offset = place(i) - low;
         let (column, row, layer) = (cell(offset.x), cell(offset.y), cell(offset.z));
         ((row / ROWS) << 44) | (layer << 24) | ((row % ROWS) << 20) | column
     };

@@ -69,6 +69,7 @@ pub(super) fn visit(scene: &Scene, mut visit: impl FnMut(Overlap)) {
     };
     let mut particles = start::fixed(scene);
     particles.append(spheres);
+    particles.domain = scene.domain();
     for path in &scene.dem.driven {
         if let Some(driven) = particles
             .inverse_mass
@@ -79,6 +80,7 @@ pub(super) fn visit(scene: &Scene, mut visit: impl FnMut(Overlap)) {
     }
     let fixed = particles.fixed;
     let Particles {
+        domain,
         position,
         radius,
         inverse_mass,
@@ -89,7 +91,7 @@ pub(super) fn visit(scene: &Scene, mut visit: impl FnMut(Overlap)) {
         (2.0 * elastic_energy(depth, effective_radius) * inverse_mass).sqrt()
     };
     visit_pairs(&particles, |i, j| {
-        let distance = (position[i] - position[j]).norm();
+        let distance = domain.offset(position[i], position[j]).norm();
         let sum = radius[i] + radius[j];
         let depth = sum - distance;
         let inverse_mass = inverse_mass[i] + inverse_mass[j];

@@ -87,6 +87,7 @@ impl DemSimulation {
             _ => particles.append(spheres),
         }
         let present = particles.len() - particles.fixed;
+        particles.domain = scene.domain();
         let process = Process::of_scene(scene, feed, present);
         let flows = process.is_some();
         let sorted = scene.spheres.count >= order::MANY;

@@ -13,18 +13,22 @@ pub struct LayerOfScene {
     floor: f64,
     /// The layer that the scene states.
     stated: Option<Layer>,
+    /// Period along z (m): the layer is then the whole period.
+    period: Option<f64>,
 }
 
 impl LayerOfScene {
-    /// That of a scene whose tank has a cross-section, and a floor or a stated layer.
+    /// That of a scene that has a cross-section, and a floor, a stated layer or a period along z.
     pub fn new(scene: &Scene) -> Option<Self> {
-        let tank = scene.tank.as_ref()?;
+        let floor = scene.tank.as_ref().and_then(|tank| tank.floor);
         let stated = scene.output.layer;
         let bottom = stated.map(|it| it.z_min);
+        let [_, _, period] = scene.domain().periods();
         Some(Self {
-            area: tank.area()?,
-            floor: tank.floor.or(bottom)?,
+            area: scene.cross_section()?,
+            floor: floor.or(bottom).or(period.map(|_| 0.0))?,
             stated,
+            period,
         })
     }
 
@@ -38,6 +42,7 @@ impl LayerOfScene {
             bottom,
             top,
             area: self.area,
+            period: self.period,
         }
     }
 }
@@ -51,12 +56,14 @@ pub struct TankLayer {
     pub top: f64,
     /// Cross-section of the tank (m2).
     pub area: f64,
+    /// Period along z (m). The layer is then the whole period, whatever its sides.
+    pub period: Option<f64>,
 }
 
 impl TankLayer {
     /// Its volume (m3); not a number of a layer without height.
     pub fn volume(&self) -> f64 {
-        let height = self.top - self.bottom;
+        let height = self.period.unwrap_or(self.top - self.bottom);
         if height > 0.0 {
             self.area * height
         } else {
@@ -66,11 +73,14 @@ impl TankLayer {
 
     /// Whether a height (m) is in it. Its lower side belongs to it.
     pub fn contains(&self, z: f64) -> bool {
-        self.bottom <= z && z < self.top
+        self.period.is_some() || (self.bottom <= z && z < self.top)
     }
 
     /// Volume (m3) of the part of a sphere that is in it: between two planes.
     pub fn part_of_sphere(&self, z: f64, radius: f64) -> f64 {
+        if self.period.is_some() {
+            return 4.0 / 3.0 * PI * radius * radius * radius;
+        }
         // Below a plane at t radii above the centre lies pi r^3 (2/3 + t - t^3/3).
         let below = |height: f64| {
             let t = ((height - z) / radius).clamp(-1.0, 1.0);
@@ -82,7 +92,7 @@ impl TankLayer {
     /// Share of a line between two heights (m) that is in it.
     pub fn share_of_line(&self, ends: [f64; 2]) -> f64 {
         let [low, high] = [ends[0].min(ends[1]), ends[0].max(ends[1])];
-        if low >= self.bottom && high <= self.top {
+        if self.period.is_some() || (low >= self.bottom && high <= self.top) {
             return 1.0;
         }
         let inside = high.min(self.top) - low.max(self.bottom);

@@ -2,9 +2,12 @@
 
 pub(crate) mod block;
 pub(crate) mod bodies;
+pub(crate) mod domain;
 pub mod math;
 pub(crate) mod reorder;
 pub mod vector;
+
+pub use domain::Domain;
 
 use reorder::reorder;
 use serde::{Deserialize, Serialize};
@@ -14,6 +17,9 @@ use vector::Vector;
 /// spins, torques and moments of inertia exist only with friction.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Particles {
+    /// The space in which they move. A checkpoint does not hold it, as the scene says it.
+    #[serde(skip)]
+    pub domain: Domain,
     /// Number of fixed spheres, which come first.
     pub fixed: usize,
     /// Number of each sphere in the scene, counted from 0, fixed spheres separately. Empty if no
@@ -46,6 +52,7 @@ pub struct Particles {
 impl Default for Particles {
     fn default() -> Self {
         Self {
+            domain: Domain::default(),
             fixed: 0,
             number: Vec::new(),
             position: Vec::new(),

@@ -1,6 +1,7 @@
 //! The walls around the spheres, and the visible part of the scene.
 
 use crate::observe::Snapshot;
+use crate::particles::Domain;
 use crate::particles::vector::Vector;
 use crate::scene::Scene;
 use crate::walls::Wall;
@@ -42,14 +43,26 @@ impl Stage {
         let walls = Wall::of_scene(scene).into_iter();
         let lines = walls.flat_map(|wall| wall.outline()).collect();
         let Some(tank) = &scene.tank else {
-            return Self::new(None, None).with_lines(lines);
+            return Self::new(None, None)
+                .with_lines(lines)
+                .with_periods(scene.domain());
         };
         let stage = Self::new(tank.radius, tank.floor);
         let stage = match tank.radius {
             Some(_) => stage,
             None => stage.with_sides(tank.reach()),
         };
-        stage.with_lines(lines)
+        stage.with_lines(lines).with_periods(scene.domain())
+    }
+
+    /// The stage, extended to the periodic box along the axes that have a period.
+    fn with_periods(mut self, domain: Domain) -> Self {
+        for (axis, period) in domain.periods().into_iter().enumerate() {
+            let half = period.unwrap_or(0.0) * 0.5;
+            self.seen[0][axis] = self.seen[0][axis].min(-half);
+            self.seen[1][axis] = self.seen[1][axis].max(half);
+        }
+        self
     }
 
     /// The stage with lines (m), extended to include them.

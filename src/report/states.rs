@@ -11,7 +11,9 @@ const GAP: f64 = 3.0;
 
 /// The spheres of a run at its snapshots; none without any.
 pub(super) fn states(run: usize, record: &RunRecord) -> Option<StatesEntry> {
-    let snapshots = record.sound_states();
+    let domain = record.scene.domain();
+    let snapshots = record.sound_states().iter();
+    let snapshots: Vec<_> = snapshots.map(|it| it.wrapped(domain)).collect();
     let spheres = record.radius.len();
     if snapshots.is_empty() || spheres == 0 {
         return None;
@@ -24,7 +26,7 @@ pub(super) fn states(run: usize, record: &RunRecord) -> Option<StatesEntry> {
     };
     let ends = [0, 1, 2].map(|axis| ends(&along(axis)));
     let mut codes = Codes::new(2);
-    for snapshot in snapshots {
+    for snapshot in &snapshots {
         for (axis, ends) in ends.iter().enumerate() {
             codes.add(&snapshot.position.column(axis).to_vec(), *ends);
         }

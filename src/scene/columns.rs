@@ -167,8 +167,9 @@ pub(super) fn apart_from_spots(scene: &Scene) -> Option<&'static str> {
 
 /// Why a layer of a scene has no known volume, if it has none.
 pub(super) fn without_area(scene: &Scene) -> Option<&'static str> {
-    let area = scene.tank.as_ref().and_then(|tank| tank.area());
-    let why = "a layer has a volume only in a tank with `radius`, or `width` and `depth`";
+    let area = scene.cross_section();
+    let why = "a layer has a volume only in a tank with `radius`, or `width` and `depth`, or \
+               between periodic sides";
     (scene.spheres.shape == Shape::Disc || area.is_none()).then_some(why)
 }
 
@@ -180,5 +181,6 @@ fn without_layer(scene: &Scene) -> Option<&'static str> {
     let tank = scene.tank.as_ref();
     let has_floor = tank.is_some_and(|tank| tank.floor.is_some());
     let why = "a tank without a floor has a layer only with `output.layer`";
-    (!has_floor && scene.output.layer.is_none()).then_some(why)
+    let is_periodic = scene.domain().periods()[2].is_some();
+    (!has_floor && !is_periodic && scene.output.layer.is_none()).then_some(why)
 }

@@ -2,9 +2,9 @@
 
 use super::{Contact, Door, Friction, Geometry, Outlet, Rest, Rolling, SceneWall};
 use super::{
-    DemScene, Driven, Effects, ExternalProgram, Guards, Neighbours, Output, ProgramParameters,
-    ProgramResume, ProgramStates, ProgramTable, Scene, Spheres, Spot, Start, Steady, Tank,
-    TemplateFile, Time,
+    DemScene, Driven, Effects, ExternalProgram, Guards, Neighbours, Output, Periodic,
+    ProgramParameters, ProgramResume, ProgramStates, ProgramTable, Scene, Spheres, Spot, Start,
+    Steady, Tank, TemplateFile, Time,
 };
 use serde::Serialize;
 
@@ -27,6 +27,8 @@ struct MotionKeys<'a> {
     /// Without their names.
     #[serde(rename = "wall", skip_serializing_if = "Vec::is_empty")]
     walls: Vec<SceneWall>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    periodic: &'a Option<Periodic>,
     #[serde(skip_serializing_if = "Option::is_none")]
     geometry: &'a Option<Geometry>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -143,6 +145,7 @@ impl Scene {
             friction,
             rolling,
             walls,
+            periodic,
             geometry,
             door,
             rest,
@@ -161,6 +164,7 @@ impl Scene {
             rolling,
             tank,
             walls: walls.iter().map(SceneWall::without_name).collect(),
+            periodic,
             geometry,
             door,
             rest,

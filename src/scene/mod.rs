@@ -41,8 +41,8 @@ pub(crate) use dem::MOST_HOPPER_SPHERES;
 pub use dem::{
     ConeWall, Contact, ContactDrag, Coulomb, CundallStrack, CylinderWall, DemScene, DiscWall, Door,
     Driven, FixedSphere, FixedSpheres, Friction, Geometry, Guards, Hertz, Hooke, HookeFriction,
-    Hopper, LengthUnit, Linear, Mindlin, MindlinDeresiewicz, Neighbours, Outlet, PlaneWall,
-    PlateWall, Rest, Rolling, SceneWall, Silbert, SilbertFriction, Spin, Tsuji,
+    Hopper, LengthUnit, Linear, Mindlin, MindlinDeresiewicz, Neighbours, Outlet, Periodic,
+    PlaneWall, PlateWall, Rest, Rolling, SceneWall, Silbert, SilbertFriction, Spin, Tsuji,
 };
 pub use file_kind::FileKind;
 pub(crate) use files::in_start_file;

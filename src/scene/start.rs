@@ -128,13 +128,18 @@ impl Scene {
         let tank = self.tank.as_ref();
         let sides = self.start_box();
         if sides == [None; 2] {
-            return tank.and_then(Tank::area);
+            return self.cross_section();
         }
         // Centres keep away from plane sides, but not from the ends of the box.
         let diameter = 2.0 * self.radius_range().1;
         let reach = tank.map(Tank::reach).unwrap_or_default();
+        let periods = self.domain().periods();
         let side = |axis: usize| {
             let whole = sides[axis].map(|[low, high]| high - low + diameter);
+            let period = periods[axis];
+            let whole = period
+                .map(|period| whole.map_or(period, |it| it.min(period)))
+                .or(whole);
             whole.or(reach[axis].map(|reach| 2.0 * reach))
         };
         Some(side(0)? * side(1)?)
@@ -145,7 +150,7 @@ impl Scene {
     /// Approximate height (m) of the spheres at rest in the tank; 0 without walls all around.
     pub(crate) fn packed_height(&self) -> f64 {
         let volume = self.spheres.count as f64 * self.spheres.radius.mean_volume();
-        let area = self.tank.as_ref().and_then(Tank::area);
+        let area = self.cross_section();
         area.map_or(0.0, |area| volume / (PACKING_FRACTION * area))
     }
 

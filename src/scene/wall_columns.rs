@@ -60,7 +60,7 @@ impl Scene {
             return Some("spheres touch only in a scene with [contact]");
         }
         let has_walls = self.named_walls().next().is_some();
-        (!has_walls).then_some("it has no walls: neither [tank] nor `wall`")
+        (!has_walls).then_some("there is no wall")
     }
 
     /// Whether a record of this scene has the output that `wanted`, of the same motion, asks for.

@@ -1,8 +1,9 @@
 //! Random places without overlap.
 
 use super::{StartError, uniform};
-use crate::particles::Particles;
+use crate::particles::domain::cells_around;
 use crate::particles::vector::Vector;
+use crate::particles::{Domain, Particles};
 use crate::scene::{Scene, Tank};
 use crate::walls::Wall;
 use rand::Rng;
@@ -22,6 +23,7 @@ pub(super) struct StartRoom {
     heights: [f64; 2],
     /// Walls that the scene lists.
     walls: Vec<Wall>,
+    domain: Domain,
 }
 
 impl StartRoom {
@@ -30,15 +32,20 @@ impl StartRoom {
         let tank = scene.tank.as_ref();
         let reach = tank.map(Tank::reach).unwrap_or_default();
         let given = scene.start_box();
-        let side = |axis: usize| given[axis].or(reach[axis].map(|reach| [-reach, reach]));
+        let domain = scene.domain();
+        let periods = domain.periods();
+        let half = |axis: usize| periods[axis].map(|period| 0.5 * period).or(reach[axis]);
+        let side = |axis: usize| given[axis].or(half(axis).map(|half| [-half, half]));
         let radius = tank.and_then(|tank| tank.radius);
         let listed = Wall::of_scene(scene).into_iter();
         Some(Self {
             sides: [side(0)?, side(1)?],
-            are_walls: given.map(|side| side.is_none() && radius.is_none()),
+            are_walls: [0, 1]
+                .map(|axis| given[axis].is_none() && radius.is_none() && periods[axis].is_none()),
             radius,
             heights,
             walls: listed.filter(|wall| !wall.name.is_of_tank()).collect(),
+            domain,
         })
     }
 
@@ -85,7 +92,7 @@ pub(super) fn scatter(
         let free = |p: Vector| {
             grid.near(p).all(|j| {
                 let distance = radius + all[j];
-                (p - placed[j]).norm_squared() > distance * distance
+                room.domain.offset(p, placed[j]).norm_squared() > distance * distance
             })
         };
         let candidate = (0..ATTEMPTS)
@@ -104,11 +111,13 @@ pub(super) fn scatter(
 
 /// Cells over a room, at least as wide as the largest sphere, with the spheres placed so far.
 struct ScatterGrid {
-    /// The corner of the room with the least coordinates (m), and the width of a cell (m).
+    /// The corner of the room with the least coordinates (m), and the widths of a
+    /// cell along x, y and z (m).
     corner: Vector,
-    width: f64,
+    widths: [f64; 3],
     /// Number of cells along x, y and z.
     sizes: [usize; 3],
+    domain: Domain,
     /// For each cell the sphere that was added last, and for each sphere the one added before it to
     /// its cell, or [`NONE`](Self::NONE).
     last: Vec<u32>,
@@ -120,30 +129,48 @@ impl ScatterGrid {
 
     fn new(radii: &[f64], room: &StartRoom) -> Self {
         let [x, y] = room.sides;
-        let [low, high] = room.heights;
-        let corner = Vector::new(x[0], y[0], low);
+        // Along a period the grid covers all of it, as spheres meet across its sides.
+        let mut sides = [x, y, room.heights];
+        for (side, period) in sides.iter_mut().zip(room.domain.periods()) {
+            if let Some(period) = period {
+                *side = [-0.5 * period, 0.5 * period];
+            }
+        }
+        let corner = Vector::from(sides.map(|[low, _]| low));
         let mut width = 2.0 * radii.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
-        let cells = |side: f64, width: f64| (side / width).max(0.0) + 1.0;
-        let sizes =
-            |width: f64| [x[1] - x[0], y[1] - y[0], high - low].map(|side| cells(side, width));
+        let periods = room.domain.periods();
+        let sizes = |width: f64| {
+            let cells = |axis: usize| {
+                let [low, high] = sides[axis];
+                let whole = ((high - low) / width).max(0.0);
+                // The last cell along a period ends where the first begins.
+                periods[axis].map_or(whole + 1.0, |_| whole.floor().max(1.0))
+            };
+            [cells(0), cells(1), cells(2)]
+        };
         // A nearly empty room only needs wider cells.
         while sizes(width).iter().product::<f64>() > 8.0 * (radii.len() as f64 + 512.0) {
             width *= 1.25;
         }
         let sizes = sizes(width).map(|size| size as usize);
+        let along = |axis: usize| periods[axis].map(|period| period / sizes[axis] as f64);
         Self {
             corner,
-            width,
+            widths: [0, 1, 2].map(|axis| along(axis).unwrap_or(width)),
             sizes,
+            domain: room.domain,
             last: vec![Self::NONE; sizes.iter().product()],
             before: Vec::with_capacity(radii.len()),
         }
     }
 
     fn cell(&self, place: Vector) -> [usize; 3] {
-        let from_corner = place - self.corner;
+        let from_corner = self.domain.wrapped(place) - self.corner;
         let along = [from_corner.x, from_corner.y, from_corner.z];
-        std::array::from_fn(|axis| ((along[axis] / self.width) as usize).min(self.sizes[axis] - 1))
+        std::array::from_fn(|axis| {
+            let cell = (along[axis] / self.widths[axis]) as usize;
+            cell.min(self.sizes[axis] - 1)
+        })
     }
 
     fn index(&self, [a, b, c]: [usize; 3]) -> usize {
@@ -162,9 +189,10 @@ impl ScatterGrid {
     /// The spheres in the cell of `place` and in the cells around it.
     fn near(&self, place: Vector) -> impl Iterator<Item = usize> {
         let cell = self.cell(place);
+        let wraps = self.domain.periods().map(|period| period.is_some());
         let [x, y, z] = [0, 1, 2].map(|axis| {
-            let last = self.sizes[axis] - 1;
-            cell[axis].saturating_sub(1)..=(cell[axis] + 1).min(last)
+            let ranges = cells_around(cell[axis], self.sizes[axis], wraps[axis]);
+            ranges.into_iter().flatten()
         });
         let cells = x.flat_map(move |a| {
             let z = z.clone();

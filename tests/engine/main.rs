@@ -17,6 +17,7 @@ mod motion;
 mod openings;
 mod order;
 mod packing;
+mod periodic;
 mod plane_sides;
 mod prescribed;
 mod reproduction;

@@ -40,6 +40,7 @@ pub static TANK: Family = Family {
             .as_ref()
             .is_some_and(|tank| tank.radius.is_some())
             && scene.dem.walls.is_empty()
+            && scene.dem.periodic.is_none()
     },
     check: |sieves, scene| {
         check_steady(sieves, scene)?;

@@ -298,7 +298,12 @@ fn export(
     arguments: &Arguments,
     console: &Console,
 ) -> Result<(), Failure> {
-    let record = &store::read_record(path).map_err(Failure::failed)?;
+    let record = store::read_record(path).map_err(Failure::failed)?;
+    let record = &match arguments.to {
+        Format::Xyz | Format::Vtk | Format::Svg | Format::Page => record.wrapped(),
+        // Numbers to compute with: paths go on across periodic sides.
+        Format::Npy | Format::Csv | Format::Dump => record,
+    };
     // Without spheres there still is a table of observables.
     if arguments.to != Format::Csv {
         runs::refuse_without_spheres(record, path)?;

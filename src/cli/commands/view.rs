@@ -172,7 +172,7 @@ fn read(arguments: &Arguments) -> Result<Vec<RunRecord>, Failure> {
     let records = arguments
         .records
         .iter()
-        .map(|path| store::read_record(path));
+        .map(|path| store::read_record(path).map(RunRecord::wrapped));
     let records: Vec<RunRecord> = records.collect::<Result<_, _>>()?;
     for (record, path) in records.iter().zip(&arguments.records) {
         runs::refuse_without_spheres(record, path)?;

@@ -4,8 +4,9 @@
 //! of a pair.
 
 use crate::particles::block::ROWS;
+use crate::particles::domain::{Open, Space};
 use crate::particles::vector::Vector;
-use crate::particles::{Particles, retain};
+use crate::particles::{Domain, Particles, retain};
 
 /// The position of a sphere when a list was built, in single precision to halve the memory. The
 /// margin is reduced by the rounding error.
@@ -29,6 +30,7 @@ impl Reference {
 /// The spheres at the moment when a list was built.
 #[derive(Clone, Debug, Default)]
 pub struct Anchor {
+    domain: Domain,
     position: Vec<Reference>,
     /// The largest distance of a rounded position from its sphere (m).
     rounding: f64,
@@ -42,13 +44,14 @@ pub struct Anchor {
 impl Anchor {
     /// Stores the present positions of the spheres.
     pub(super) fn renew(&mut self, particles: &Particles) {
+        self.domain = particles.domain;
         self.position.clear();
         self.position.reserve_exact(particles.len());
         // One root is taken for all spheres.
         let mut farthest_squared = 0.0_f64;
         for &place in &particles.position {
-            let reference = Reference::of(place);
-            let rounding = place - reference.place();
+            let reference = Reference::of(self.domain.wrapped(place));
+            let rounding = self.domain.offset(place, reference.place());
             farthest_squared = farthest_squared.max(rounding.norm_squared());
             self.position.push(reference);
         }
@@ -86,8 +89,8 @@ impl Anchor {
 
     /// A reference. Notes its rounding error.
     fn rounded(&mut self, place: Vector) -> Reference {
-        let reference = Reference::of(place);
-        let rounding = (place - reference.place()).norm();
+        let reference = Reference::of(self.domain.wrapped(place));
+        let rounding = self.domain.offset(place, reference.place()).norm();
         self.rounding = self.rounding.max(rounding);
         reference
     }
@@ -120,6 +123,7 @@ impl Anchor {
         let displacement = (0.499_999_999 * (margin - turned) - self.rounding).max(0.0);
         let (sine, cosine) = libm::sincos(angle);
         Allowance {
+            domain: self.domain,
             sine,
             cosine,
             displacement_squared: displacement * displacement,
@@ -130,6 +134,7 @@ impl Anchor {
 /// How far spheres may have moved since a list was built.
 #[derive(Clone, Copy, Debug)]
 pub struct Allowance {
+    domain: Domain,
     sine: f64,
     cosine: f64,
     displacement_squared: f64,
@@ -144,6 +149,14 @@ impl Allowance {
     /// Whether all spheres are still near enough to their references.
     #[inline(always)]
     pub fn hold(&self, positions: &[Vector], references: &[Reference]) -> bool {
+        match self.domain.is_open() {
+            true => self.hold_in::<Open>(positions, references),
+            false => self.hold_in::<Domain>(positions, references),
+        }
+    }
+
+    #[inline(always)]
+    fn hold_in<D: Space>(&self, positions: &[Vector], references: &[Reference]) -> bool {
         let groups = positions.chunks(ROWS).zip(references.chunks(ROWS));
         for (positions, references) in groups {
             // All spheres of a group are tested without a branch, which compiles to vector
@@ -154,11 +167,11 @@ impl Allowance {
                 <&[Reference; ROWS]>::try_from(references),
             ) {
                 for k in 0..ROWS {
-                    hold &= self.holds(positions[k], references[k]);
+                    hold &= self.holds_in::<D>(positions[k], references[k]);
                 }
             } else {
                 for (&position, &reference) in positions.iter().zip(references) {
-                    hold &= self.holds(position, reference);
+                    hold &= self.holds_in::<D>(position, reference);
                 }
             }
             if !hold {
@@ -172,18 +185,27 @@ impl Allowance {
     /// coordinate is not a number.
     #[inline(always)]
     pub fn holds(&self, position: Vector, reference: Reference) -> bool {
+        self.hold(&[position], &[reference])
+    }
+
+    #[inline(always)]
+    fn holds_in<D: Space>(&self, position: Vector, reference: Reference) -> bool {
         let reference = reference.place();
         let turned = Vector::new(
             self.cosine * reference.x - self.sine * reference.y,
             self.sine * reference.x + self.cosine * reference.y,
             reference.z,
         );
-        (position - turned).norm_squared() <= self.displacement_squared
+        D::of(self.domain).nearest(position - turned).norm_squared() <= self.displacement_squared
     }
 }
 
-/// Rotation rate of the centres about the z axis (rad/s).
+/// Rotation rate of the centres about the z axis (rad/s); zero in a space that such a rotation does
+/// not leave unchanged.
 fn mean_rotation(particles: &Particles) -> f64 {
+    if let [Some(_), _, _] | [_, Some(_), _] = particles.domain.periods() {
+        return 0.0;
+    }
     let (mut momentum, mut inertia) = (0.0, 0.0);
     for (x, v) in particles.position.iter().zip(&particles.velocity) {
         momentum += x.x * v.y - x.y * v.x;

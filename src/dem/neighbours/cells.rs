@@ -2,7 +2,9 @@
 
 use super::Reach;
 use crate::particles::Particles;
+use crate::particles::domain::cells_around;
 use crate::particles::vector::Vector;
+use std::ops::Range;
 
 /// Where a search reads the spheres of a cell.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -17,6 +19,8 @@ pub(super) enum Storage {
 #[derive(Clone, Debug, Default)]
 pub(super) struct BoundedCells {
     shape: [usize; 3],
+    /// Along which axes the first cell comes after the last.
+    wraps: [bool; 3],
     /// Spheres of cell c are `first[c]..first[c + 1]` of the sorted arrays.
     first: Vec<u32>,
     cell_of: Vec<u32>,
@@ -37,18 +41,26 @@ impl BoundedCells {
         storage: Storage,
     ) {
         let count = particles.len();
-        let (low, high) = bounds(&particles.position);
-        let extent = high - low;
+        let domain = particles.domain;
+        let periods = domain.periods();
+        let (low, extent) = extent(particles);
         // More than a few cells per sphere would only cost time and memory.
         let most = 4 * count + 64;
         let mut width = width;
         loop {
             let height = match reach {
-                Reach::Contact => extent.z,
+                Reach::Contact => extent[2],
                 Reach::Column => 0.0,
             };
-            self.shape = [extent.x, extent.y, height]
-                .map(|extent| ((extent / width) as usize).saturating_add(1));
+            let sides = [extent[0], extent[1], height];
+            self.shape = [0, 1, 2].map(|axis| {
+                let whole = (sides[axis] / width) as usize;
+                // The last cell along a period ends where the first begins.
+                match periods[axis] {
+                    Some(_) => whole.max(1),
+                    None => whole.saturating_add(1),
+                }
+            });
             let [nx, ny, nz] = self.shape;
             if nx.saturating_mul(ny).saturating_mul(nz) <= most {
                 break;
@@ -56,15 +68,21 @@ impl BoundedCells {
             // A width of zero would not grow.
             width = (1.25 * width).max(f64::MIN_POSITIVE);
         }
-        let inverse = 1.0 / width;
         let [nx, ny, nz] = self.shape;
-        let cell = |offset: f64, cells: usize| ((offset * inverse) as usize).min(cells - 1);
+        let inverse = [0, 1, 2].map(|axis| match periods[axis] {
+            Some(period) => self.shape[axis] as f64 / period,
+            None => 1.0 / width,
+        });
+        self.wraps = periods.map(|period| period.is_some());
+        let cell =
+            |offset: f64, inverse: f64, cells: usize| ((offset * inverse) as usize).min(cells - 1);
         self.cell_of.clear();
         self.cell_of
             .extend(particles.position.iter().map(|&centre| {
-                let offset = centre - low;
-                let (column, row, layer) =
-                    (cell(offset.x, nx), cell(offset.y, ny), cell(offset.z, nz));
+                let offset = domain.wrapped(centre) - low;
+                let column = cell(offset.x, inverse[0], nx);
+                let row = cell(offset.y, inverse[1], ny);
+                let layer = cell(offset.z, inverse[2], nz);
                 ((layer * ny + row) * nx + column) as u32
             }));
         self.sort(particles, storage);
@@ -106,15 +124,19 @@ impl BoundedCells {
 
     /// Calls `visit` with the sorted range of every row of cells around sphere `i`.
     #[inline]
-    fn rows_about(&self, i: usize, mut visit: impl FnMut(std::ops::Range<usize>)) {
+    fn rows_about(&self, i: usize, mut visit: impl FnMut(Range<usize>)) {
         let [nx, ny, nz] = self.shape;
         let cell = self.cell_of[i] as usize;
         let (column, row, layer) = (cell % nx, cell / nx % ny, cell / (nx * ny));
-        let (left, right) = (column.saturating_sub(1), (column + 1).min(nx - 1));
-        for layer in layer.saturating_sub(1)..=(layer + 1).min(nz - 1) {
-            for row in row.saturating_sub(1)..=(row + 1).min(ny - 1) {
+        let columns = cells_around(column, nx, self.wraps[0]);
+        let rows = cells_around(row, ny, self.wraps[1]);
+        for layer in cells_around(layer, nz, self.wraps[2]).into_iter().flatten() {
+            for row in rows.iter().cloned().flatten() {
                 let base = (layer * ny + row) * nx;
-                visit(self.first[base + left] as usize..self.first[base + right + 1] as usize);
+                for columns in columns.iter().filter(|columns| !columns.is_empty()) {
+                    let first = self.first[base + columns.start] as usize;
+                    visit(first..self.first[base + columns.end] as usize);
+                }
             }
         }
     }
@@ -144,6 +166,21 @@ impl BoundedCells {
             }
         });
     }
+}
+
+/// The corner with the least coordinates (m) of the smallest box that holds all spheres, and its
+/// extent along each axis (m). Along a periodic axis it is the whole period.
+fn extent(particles: &Particles) -> (Vector, [f64; 3]) {
+    let (low, high) = bounds(&particles.position);
+    let extent = high - low;
+    let mut sides = [extent.x, extent.y, extent.z];
+    let mut corner = [low.x, low.y, low.z];
+    for (axis, period) in particles.domain.periods().into_iter().enumerate() {
+        if let Some(period) = period {
+            (corner[axis], sides[axis]) = (-0.5 * period, period);
+        }
+    }
+    (corner.into(), sides)
 }
 
 /// Corners of the smallest box that holds all points.

@@ -3,6 +3,7 @@
 
 use super::{Reach, WORD};
 use crate::particles::Particles;
+use crate::particles::domain::{Domain, Open, Space};
 use fearless_simd::{Level, Simd, SimdBase, SimdMask, f64x8};
 
 /// Up to this number of spheres all pairs are tested.
@@ -14,6 +15,7 @@ const LANES: usize = 8;
 /// Centres and radii of a few spheres (m), one array per quantity.
 #[derive(Clone, Debug, Default)]
 pub(super) struct FewSpheres {
+    domain: Domain,
     coordinates: [Vec<f64>; 3],
     radius: Vec<f64>,
 }
@@ -21,6 +23,7 @@ pub(super) struct FewSpheres {
 impl FewSpheres {
     /// Copies the spheres, turned about the z axis by an angle of this sine and cosine.
     pub(super) fn fill(&mut self, particles: &Particles, (sine, cosine): (f64, f64)) {
+        self.domain = particles.domain;
         // The arrays are padded with NaN, which no sphere is near.
         let padded = particles.len().next_multiple_of(WORD);
         let positions = || particles.position.iter();
@@ -45,23 +48,42 @@ impl FewSpheres {
         (reach, skin): (Reach, f64),
         found: &mut Vec<u32>,
     ) {
-        fearless_simd::dispatch!(level, simd => {
-            for word in first / WORD..self.radius.len() / WORD {
-                let mut near = self.word(simd, i, word * WORD, reach, skin);
-                if word * WORD < first {
-                    near &= u64::MAX << (first - word * WORD);
-                }
-                while near != 0 {
-                    found.push((word * WORD) as u32 + near.trailing_zeros());
-                    near &= near - 1;
-                }
-            }
+        fearless_simd::dispatch!(level, simd => match self.domain.is_open() {
+            true => self.find_in::<Open, _>(simd, (i, first), (reach, skin), found),
+            false => self.find_in::<Domain, _>(simd, (i, first), (reach, skin), found),
         });
+    }
+
+    #[inline(always)]
+    fn find_in<D: Space, S: Simd>(
+        &self,
+        simd: S,
+        (i, first): (usize, usize),
+        (reach, skin): (Reach, f64),
+        found: &mut Vec<u32>,
+    ) {
+        for word in first / WORD..self.radius.len() / WORD {
+            let mut near = self.word::<D, S>(simd, i, word * WORD, reach, skin);
+            if word * WORD < first {
+                near &= u64::MAX << (first - word * WORD);
+            }
+            while near != 0 {
+                found.push((word * WORD) as u32 + near.trailing_zeros());
+                near &= near - 1;
+            }
+        }
     }
 
     /// Which of the spheres from `at` on are near sphere `i`.
     #[inline(always)]
-    fn word<S: Simd>(&self, simd: S, i: usize, at: usize, reach: Reach, skin: f64) -> u64 {
+    fn word<D: Space, S: Simd>(
+        &self,
+        simd: S,
+        i: usize,
+        at: usize,
+        reach: Reach,
+        skin: f64,
+    ) -> u64 {
         let [x, y, z] = &self.coordinates;
         let all = at..at + WORD;
         let columns = x[all.clone()]
@@ -77,7 +99,8 @@ impl FewSpheres {
             let radius = eight(radius);
             let near = match reach {
                 Reach::Contact => {
-                    let dz = eight(z_of) - z[i];
+                    let offset = [dx, dy, eight(z_of) - z[i]];
+                    let [dx, dy, dz] = D::of(self.domain).nearest_of_eight(simd, offset);
                     let distance = radius + (own + skin);
                     (dx * dx + dy * dy + dz * dz).simd_lt(distance * distance)
                 }

@@ -107,7 +107,8 @@ impl VerletList {
         let spheres = references.iter().zip(&particles.radius).enumerate();
         for (i, (reference, radius)) in spheres {
             let distance = reach + radius;
-            let near = (reference.place() - centre).norm_squared() < distance * distance;
+            let offset = particles.domain.offset(reference.place(), centre);
+            let near = offset.norm_squared() < distance * distance;
             if near && i != stray && i.max(stray) >= particles.first_partner(i.min(stray)) {
                 visit(i);
             }

@@ -57,6 +57,9 @@ impl Glance {
             #[inline(always)]
             |k| row(simd, position, pairs[k].i()) - row(simd, position, pairs[k].j()),
         );
+        for at in (0..BLOCK).step_by(ROWS) {
+            particles.domain.wrap(simd, &mut self.offset, at);
+        }
         if self.common_radius.is_none() {
             let [one, other] = &mut self.radius;
             for (k, pair) in self.pairs.iter().enumerate() {

@@ -2,7 +2,9 @@
 
 use super::Reach;
 use crate::particles::Particles;
+use crate::particles::domain::cells_around;
 use crate::particles::vector::Vector;
+use std::ops::Range;
 
 /// No sphere.
 const NONE: u32 = u32::MAX;
@@ -22,20 +24,32 @@ pub(super) struct HashedCells {
     place: Vec<CellIndex>,
     /// Whether all cells lie in one layer along x, y and z.
     flat: [bool; 3],
+    /// Number of cells along each axis that is periodic.
+    cells: [Option<i64>; 3],
 }
 
 impl HashedCells {
     /// Sorts the spheres into cells. Cells of columns hold spheres of any height.
     pub(super) fn fill(&mut self, particles: &Particles, width: f64, reach: Reach) {
-        let inverse = 1.0 / width;
-        let along = |value: f64| (value * inverse).floor() as i64;
+        let domain = particles.domain;
+        let periods = domain.periods();
+        self.cells = periods.map(|period| Some((period? / width).max(1.0) as i64));
+        let cells = self.cells;
+        let along = |axis: usize, value: f64| match (periods[axis], cells[axis]) {
+            (Some(period), Some(cells)) => {
+                let share = value / period + 0.5;
+                ((share * cells as f64) as i64).clamp(0, cells - 1)
+            }
+            _ => (value * (1.0 / width)).floor() as i64,
+        };
         self.place.clear();
-        self.place.extend(particles.position.iter().map(|centre| {
+        self.place.extend(particles.position.iter().map(|&centre| {
+            let centre = domain.wrapped(centre);
             let layer = match reach {
-                Reach::Contact => along(centre.z),
+                Reach::Contact => along(2, centre.z),
                 Reach::Column => 0,
             };
-            [along(centre.x), along(centre.y), layer]
+            [along(0, centre.x), along(1, centre.y), layer]
         }));
         self.flat = [0, 1, 2].map(|axis| {
             let mut places = self.place.iter().map(|place| place[axis]);
@@ -63,16 +77,25 @@ impl HashedCells {
         particles: &Particles,
         mut visit: impl FnMut(u32, Vector, f64),
     ) {
-        let [x, y, z] = self.place[i];
-        // A plane of cells has no neighbours above or below.
-        let [across, along, up] = self.flat.map(|flat| if flat { 0..=0 } else { -1..=1_i64 });
-        for dz in up {
-            for dy in along.clone() {
-                for dx in across.clone() {
-                    let place = [x.wrapping_add(dx), y.wrapping_add(dy), z.wrapping_add(dz)];
-                    self.visit_cell(place, particles, &mut visit);
+        let [x, y, z] = [0, 1, 2].map(|axis| self.around(self.place[i][axis], axis));
+        for z in z.into_iter().flatten() {
+            for y in y.clone().into_iter().flatten() {
+                for x in x.clone().into_iter().flatten() {
+                    self.visit_cell([x, y, z], particles, &mut visit);
                 }
             }
+        }
+    }
+
+    /// A cell and its neighbours along an axis, each once.
+    #[inline]
+    fn around(&self, cell: i64, axis: usize) -> [Range<i64>; 2] {
+        match (self.cells[axis], self.flat[axis]) {
+            // A plane of cells has no neighbours above or below.
+            (_, true) => [cell..cell + 1, 0..0],
+            (None, false) => [cell.saturating_sub(1)..cell.saturating_add(2), 0..0],
+            (Some(cells), false) => cells_around(cell as usize, cells as usize, true)
+                .map(|cells| cells.start as i64..cells.end as i64),
         }
     }
 

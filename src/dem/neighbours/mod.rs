@@ -352,14 +352,14 @@ fn find_partners(
     match reach {
         Reach::Contact => search.near(i, particles, |j, position: Vector, other| {
             let distance = radius + skin + other;
-            let offset = position - centre;
+            let offset = particles.domain.offset(position, centre);
             if j >= first && offset.norm_squared() < distance * distance {
                 found.push(j);
             }
         }),
         Reach::Column => search.near(i, particles, |j, position: Vector, other| {
             let distance = 2.0 * radius.max(other) + skin;
-            let offset = position - centre;
+            let offset = particles.domain.offset(position, centre);
             if j >= first && offset.x.abs() < distance && offset.y.abs() < distance {
                 found.push(j);
             }

@@ -67,7 +67,11 @@ impl Feed {
                     false => 1.0,
                 };
                 let reach = (sphere.radius + particles.radius[i]) * share;
-                (particles.position[i] - sphere.position).norm_squared() >= reach * reach
+                (particles
+                    .domain
+                    .offset(particles.position[i], sphere.position))
+                .norm_squared()
+                    >= reach * reach
             })
         };
         if let Some(sphere) = self.waiting.pop_front_if(|sphere| is_free(sphere)) {

@@ -31,7 +31,7 @@ impl ContactState {
         let (one, other) = (Self::at_wall(spheres, i), Self::at_wall(spheres, j));
         let earlier = one.earlier.zip(other.earlier);
         Self {
-            offset: one.offset - other.offset,
+            offset: spheres.domain.offset(one.offset, other.offset),
             velocity: one.velocity - other.velocity,
             spin: [one.spin[0], other.spin[0]],
             properties: [one.properties[0], other.properties[0]],

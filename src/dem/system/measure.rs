@@ -22,6 +22,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     /// sums is part of their bits.
     fn sum_of_contacts(&self) -> Contacts {
         let Particles {
+            domain,
             position,
             radius,
             fixed,
@@ -39,7 +40,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             while let Some((pair, history)) = pairs.next_if(|(pair, _)| pair.i() as usize == i) {
                 let j = pair.j() as usize;
                 let sum = ri + radius[j];
-                let distance_squared = (centre - position[j]).norm_squared();
+                let distance_squared = domain.offset(centre, position[j]).norm_squared();
                 if distance_squared < sum * sum {
                     let overlap = sum - distance_squared.sqrt();
                     let effective_radius = ri * radius[j] / sum;

@@ -4,9 +4,9 @@ use super::contact_block::EarlierRows;
 use super::wall_contacts::NearSphere;
 use crate::dem::bodies::SphereRows;
 use crate::dem::neighbours::NearPair;
-use crate::particles::Particles;
 use crate::particles::block::BLOCK;
 use crate::particles::vector::Vector;
+use crate::particles::{Domain, Particles};
 use std::ops::Range;
 
 /// The spheres that contacts read: all spheres, the spheres of a thread, or copies. Contacts are
@@ -15,6 +15,8 @@ use std::ops::Range;
 pub(super) struct Partners<'a> {
     /// The index of the first one.
     pub(super) first: u32,
+    /// The space in which they move.
+    pub(super) domain: Domain,
     /// Centres (m).
     pub(super) position: &'a [Vector],
     /// Velocities (m/s).
@@ -37,6 +39,7 @@ impl<'a> Partners<'a> {
     /// All spheres.
     pub(super) fn all(particles: &'a Particles, earlier: &'a [EarlierRows]) -> Self {
         let Particles {
+            domain,
             position,
             velocity,
             spin,
@@ -48,6 +51,7 @@ impl<'a> Partners<'a> {
         } = particles;
         Self {
             first: 0,
+            domain: *domain,
             position,
             velocity,
             spin,
@@ -67,6 +71,7 @@ impl<'a> Partners<'a> {
     ) -> (Self, [&'a mut [Vector]; 2]) {
         let partners = Self {
             first: spheres.first as u32,
+            domain: spheres.domain,
             position: spheres.position,
             velocity: spheres.velocity,
             spin: spheres.spin,
@@ -152,6 +157,7 @@ impl Copies {
     pub(super) fn partners<'a>(&'a self, all: &SphereRows<'a>) -> Partners<'a> {
         Partners {
             first: self.spheres.start as u32,
+            domain: all.domain,
             position: &self.position,
             velocity: &self.velocity,
             spin: &self.spin,

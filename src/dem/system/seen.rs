@@ -42,7 +42,7 @@ pub(in crate::dem) enum Partner {
 pub(in crate::dem) struct WallTouch {
     /// The place of the wall among the walls and their joints.
     pub(in crate::dem) wall: usize,
-    /// The point of the wall (m).
+    /// The point of the wall (m), in the box of a periodic space.
     pub(in crate::dem) point: Vector,
     /// Torque of rolling resistance on the sphere (N m), if forces are asked for.
     pub(in crate::dem) rolling: Vector,
@@ -76,7 +76,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         for (pair, history) in pairs.zip(&self.pair_history) {
             let [i, j] = pair.sides().map(|side| side as usize);
             let sum = radius[i] + radius[j];
-            let offset = position[i] - position[j];
+            let offset = particles.domain.offset(position[i], position[j]);
             if offset.norm_squared() >= sum * sum {
                 continue;
             }
@@ -140,7 +140,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                     sphere,
                     partner: Partner::Wall(WallTouch {
                         wall: place,
-                        point: centre - branch,
+                        point: particles.domain.wrapped(centre - branch),
                         rolling,
                     }),
                     height: centre.z,

@@ -163,7 +163,9 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                 effect.reorder(&order);
             }
         }
+        let domain = present.domain;
         *present = particles.into_owned();
+        present.domain = domain;
         self.find_driven();
         if doors_are_open {
             self.take_doors_away();

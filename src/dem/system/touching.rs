@@ -5,6 +5,7 @@ use super::contact_state::SphereProperties;
 use super::partners::Partners;
 use crate::dem::neighbours::{NearPair, keep_pairs};
 use crate::particles::block::{BLOCK, ROWS, row, turned};
+use crate::particles::domain::{Domain, Open, Space};
 use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask32x8, mask64x8, u32x8};
 use prefetch_index::prefetch_index;
 
@@ -128,6 +129,23 @@ impl Touching {
         partners: &Partners<'_>,
         alike: Option<SphereProperties>,
     ) -> usize {
+        // Compiled for each kind of space: open space computes nothing for images.
+        match partners.domain.is_open() {
+            true => self.find_in::<Open, S, H>(simd, near, from, histories, partners, alike),
+            false => self.find_in::<Domain, S, H>(simd, near, from, histories, partners, alike),
+        }
+    }
+
+    #[inline(always)]
+    fn find_in<D: Space, S: Simd, H: Default>(
+        &mut self,
+        simd: S,
+        near: &[NearPair],
+        from: usize,
+        histories: &mut [H],
+        partners: &Partners<'_>,
+        alike: Option<SphereProperties>,
+    ) -> usize {
         const { assert!(CHUNK.is_multiple_of(BLOCK)) };
         let (mut found, mut apart) = (0, 0);
         for (first, contacts) in (from..).step_by(ROWS).zip(near.chunks(ROWS)) {
@@ -140,7 +158,7 @@ impl Touching {
                     &self.rest
                 }
             };
-            let (mut touch, offset) = touches(simd, eight, partners, alike);
+            let (mut touch, offset) = touches::<D, S>(simd, eight, partners, alike);
             let mut bits = touch.to_bitmask();
             if contacts.len() < ROWS {
                 bits &= (1 << contacts.len()) - 1;
@@ -195,17 +213,18 @@ impl Touching {
 
 /// Which of the pairs touch, and all their offsets (m).
 #[inline(always)]
-fn touches<S: Simd>(
+fn touches<D: Space, S: Simd>(
     simd: S,
     pairs: &[NearPair; ROWS],
     partners: &Partners<'_>,
     alike: Option<SphereProperties>,
 ) -> (mask64x8<S>, [f64x8<S>; 3]) {
     let (position, radius) = (partners.position, partners.radius);
-    let [x, y, z] = turned::<S>(
+    let offset = turned::<S>(
         #[inline(always)]
         |k| row(simd, position, pairs[k].i()) - row(simd, position, pairs[k].j()),
     );
+    let [x, y, z] = D::of(partners.domain).nearest_of_eight(simd, offset);
     let sum = match alike {
         Some(properties) => f64x8::splat(simd, properties.radius + properties.radius),
         None => {

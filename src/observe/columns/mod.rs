@@ -12,6 +12,7 @@ mod tests;
 
 use super::OwnSeries;
 use crate::measure::LayerOfScene;
+use crate::particles::Domain;
 use crate::scene::{ColumnProfile, FurtherColumn, Scene, Shape};
 use crate::simulation::{Column, Frame, FrameView};
 use serde::{Deserialize, Serialize};
@@ -23,6 +24,8 @@ pub(super) struct SphereColumns {
     profiles: Vec<ColumnProfile>,
     /// Cross-section of the tank (m2).
     area: f64,
+    /// Periods along x, y and z (m).
+    periods: [Option<f64>; 3],
     /// Numbers of axes along which spheres move and about which they turn.
     degrees: [f64; 2],
     diameter: f64,
@@ -38,11 +41,8 @@ impl SphereColumns {
         Self {
             columns,
             profiles: scene.output.profiles.clone(),
-            area: scene
-                .tank
-                .as_ref()
-                .and_then(|it| it.area())
-                .unwrap_or(f64::NAN),
+            area: scene.cross_section().unwrap_or(f64::NAN),
+            periods: scene.domain().periods(),
             degrees: match scene.spheres.shape {
                 Shape::Sphere => [3.0, 3.0],
                 Shape::Disc => [2.0, 1.0],
@@ -97,7 +97,9 @@ impl SphereColumns {
             FurtherColumn::HeightDeviation => spread::height_deviation(frame),
             FurtherColumn::GranularTemperature => temperature::translational(frame, ways),
             FurtherColumn::RotationalTemperature => temperature::rotational(frame, turns),
-            FurtherColumn::SurfaceAngle => surface::angle(frame, self.diameter),
+            FurtherColumn::SurfaceAngle => {
+                surface::angle(frame, self.diameter, Domain::new(self.periods))
+            }
             FurtherColumn::PackingFraction => in_layer(packing::fraction),
             FurtherColumn::ShearRate => in_layer(shear::rate),
             // The model measures these.

@@ -77,7 +77,12 @@ fn add_spheres(profile: &ColumnProfile, block: &FrameView<'_>, bins: &mut [BinSu
 fn add_volumes(profile: &ColumnProfile, block: &FrameView<'_>, area: f64, bins: &mut [BinSums]) {
     for (number, bin) in bins.iter_mut().enumerate() {
         let [bottom, top] = profile.ends(number);
-        let layer = TankLayer { bottom, top, area };
+        let layer = TankLayer {
+            bottom,
+            top,
+            area,
+            period: None,
+        };
         for (z, radius) in block.position[2].iter().zip(block.radius) {
             bin.volume += layer.part_of_sphere(*z, *radius);
         }

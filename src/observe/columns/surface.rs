@@ -1,5 +1,7 @@
 //! How steep the free surface is.
 
+use crate::particles::Domain;
+use crate::particles::vector::Vector;
 use crate::simulation::Frame;
 use std::collections::BTreeMap;
 
@@ -11,13 +13,15 @@ const SIDE: f64 = 2.0;
 const LINE: f64 = 1e-9;
 
 /// Angle (rad) between the horizontal and the plane of least squares through the highest centre
-/// over each square of two diameters. If the squares form a line, the plane is level across it.
-pub(super) fn angle(frame: &dyn Frame, diameter: f64) -> f64 {
+/// over each square of two diameters. If the squares form a line, the plane is level across it. In a
+/// periodic space it goes through the images in the box.
+pub(super) fn angle(frame: &dyn Frame, diameter: f64, domain: Domain) -> f64 {
     let side = SIDE * diameter;
     let mut highest: BTreeMap<[i64; 2], [f64; 3]> = BTreeMap::new();
     frame.show(&mut |block| {
         let [x, y, z] = block.position;
         for ((&x, &y), &z) in x.iter().zip(y).zip(z) {
+            let Vector { x, y, .. } = domain.wrapped(Vector::new(x, y, z));
             let square = [x, y].map(|place| (place / side).floor() as i64);
             let top = highest.entry(square).or_insert([x, y, z]);
             if z > top[2] {

@@ -4,6 +4,7 @@
 mod driven;
 mod guards;
 mod neighbours;
+mod periodic;
 mod silo;
 mod walls;
 
@@ -16,6 +17,7 @@ pub use crate::forces::rolling::Rolling;
 pub use driven::Driven;
 pub use guards::Guards;
 pub use neighbours::Neighbours;
+pub use periodic::Periodic;
 pub(crate) use silo::MOST_HOPPER_SPHERES;
 pub use silo::{Door, FixedSphere, FixedSpheres, Geometry, Hopper, LengthUnit, Outlet, Rest};
 pub use walls::{ConeWall, CylinderWall, DiscWall, PlaneWall, PlateWall, SceneWall};
@@ -42,6 +44,9 @@ pub struct DemScene {
     /// Walls of any shape, in addition to the tank. Absent: none.
     #[serde(default, rename = "wall", skip_serializing_if = "Vec::is_empty")]
     pub walls: Vec<SceneWall>,
+    /// Periodic sides. Absent: the space is open.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub periodic: Option<Periodic>,
     /// Fixed spheres as the walls and the door of a silo. Absent: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub geometry: Option<Geometry>,

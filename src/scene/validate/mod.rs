@@ -3,6 +3,7 @@
 mod driven;
 mod neighbours;
 mod output;
+mod periodic;
 mod program;
 mod silo;
 mod spot;
@@ -60,6 +61,7 @@ impl Scene {
         self.check_opening(problems);
         self.check_friction_of_walls(problems);
         self.check_walls(problems);
+        self.check_periodic(problems);
         self.check_start(problems);
         self.check_times(problems);
         self.check_silo(problems);

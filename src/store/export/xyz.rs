@@ -7,8 +7,8 @@
 //! ```
 //!
 //! OVITO makes Radius, Mass, Velocity and Angular Velocity of `radius`, `mass`, `velo` and `omega`.
-//! The lattice is the box that holds all spheres at all times; nothing is periodic. All numbers are
-//! in SI units, with as many digits as it takes to read back the same bits. Where spheres come and
+//! The lattice is the box that holds all spheres at all times, and the period along an axis that is
+//! periodic. All numbers are in SI units, with as many digits as it takes to read back the same bits. Where spheres come and
 //! go, a block holds those that are in, and `id` is the index of each, from 0.
 
 use super::{bounds, fixed, present, rotate};
@@ -25,12 +25,19 @@ use std::path::Path;
 /// # Errors
 /// [`StoreError::DiskFull`] or [`StoreError::Write`].
 pub fn write_xyz(record: &RunRecord, states: &[&Snapshot], path: &Path) -> Result<(), StoreError> {
-    let [low, high] = bounds(states, &record.radius);
-    let size = [0, 1, 2].map(|axis| high[axis] - low[axis]);
+    let [mut low, high] = bounds(states, &record.radius);
+    let mut size = [0, 1, 2].map(|axis| high[axis] - low[axis]);
+    let periods = record.scene.domain().periods();
+    for (axis, period) in periods.into_iter().enumerate() {
+        if let Some(period) = period {
+            (low[axis], size[axis]) = (-0.5 * period, period);
+        }
+    }
+    let [a, b, c] = periods.map(|period| if period.is_some() { 'T' } else { 'F' });
     let spins = rotate(states);
     let flows = record.scene.has_flow();
     let header = format!(
-        "Lattice=\"{:?} 0 0 0 {:?} 0 0 0 {:?}\" Origin=\"{:?} {:?} {:?}\" pbc=\"F F F\" \
+        "Lattice=\"{:?} 0 0 0 {:?} 0 0 0 {:?}\" Origin=\"{:?} {:?} {:?}\" pbc=\"{a} {b} {c}\" \
          Properties=species:S:1:pos:R:3:radius:R:1:mass:R:1:velo:R:3{}{}",
         size[0],
         size[1],

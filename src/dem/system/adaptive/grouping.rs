@@ -59,6 +59,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
 
     fn group_pair(&self, i: usize, j: usize, work: &mut Workspace<T::History>) {
         let Particles {
+            domain,
             position,
             velocity,
             radius,
@@ -68,7 +69,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         } = &self.particles;
         let sum = radius[i] + radius[j];
         let way = work.reach[i] + work.reach[j];
-        let offset = position[i] - position[j];
+        let offset = domain.offset(position[i], position[j]);
         let squared = offset.norm_squared();
         if squared >= (sum + way) * (sum + way) {
             return;

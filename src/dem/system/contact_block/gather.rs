@@ -76,6 +76,7 @@ impl<H: History> ContactBlock<H> {
                     #[inline(always)]
                     |k| row(simd, position, pairs[k].i()) - row(simd, position, pairs[k].j()),
                 );
+                partners.domain.wrap(simd, &mut self.offset, at);
             }
             self.velocity.fill_from::<S>(
                 at,

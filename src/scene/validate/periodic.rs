@@ -1,0 +1,138 @@
+//! Whether the scene goes with its periodic sides.
+
+use crate::document::{Problem, at_least, number};
+use crate::particles::vector::Vector;
+use crate::scene::{Integrator, Scene, SceneWall, Shape, Start};
+
+/// Names of the axes.
+const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// A direction is along or across an axis if the other part of it is below this.
+const ALONG: f64 = 1e-9;
+
+impl Scene {
+    pub(super) fn check_periodic(&self, problems: &mut Vec<Problem>) {
+        let Some(periodic) = &self.dem.periodic else {
+            return;
+        };
+        let periods = periodic.periods();
+        if periods == [None; 3] {
+            let help = "give a period, such as `x = 0.1`, or remove [periodic]";
+            problems.push(Problem::new("periodic", "no axis is periodic").help(help));
+            return;
+        }
+        self.check_beside_periodic(problems);
+        for (axis, period) in periods.into_iter().enumerate() {
+            if let Some(period) = period {
+                self.check_period(axis, period, problems);
+                self.check_walls_across(axis, problems);
+                self.check_effects_across(axis, problems);
+            }
+        }
+    }
+
+    fn check_period(&self, axis: usize, period: f64, problems: &mut Vec<Problem>) {
+        let least = 4.0 * self.radius_range().1;
+        if period < least {
+            let message = format!(
+                "a period of {} m is less than two diameters of the largest sphere, {} m: a pair \
+                 would meet across both sides",
+                number(period),
+                number(least)
+            );
+            let key = format!("periodic.{}", AXES[axis]);
+            let help = format!("use at least {}", at_least(least));
+            problems.push(Problem::new(key, message).help(help));
+        }
+    }
+
+    /// Walls must look the same from each image of a sphere.
+    fn check_walls_across(&self, axis: usize, problems: &mut Vec<Problem>) {
+        let along = AXES[axis];
+        let tank = self.tank.clone().unwrap_or_default();
+        let keys: &[(&str, bool)] = match axis {
+            0 => &[
+                ("radius", tank.radius.is_some()),
+                ("width", tank.width.is_some()),
+                ("orifice_radius", tank.orifice_radius.is_some()),
+                ("slit_width", tank.slit_width.is_some()),
+            ],
+            1 => &[
+                ("radius", tank.radius.is_some()),
+                ("depth", tank.depth.is_some()),
+                ("orifice_radius", tank.orifice_radius.is_some()),
+            ],
+            _ => &[("floor", tank.floor.is_some())],
+        };
+        for (key, _) in keys.iter().filter(|(_, is_given)| *is_given) {
+            let message = format!("this wall ends the space along {along}, which is periodic");
+            let help = format!("remove it, or remove `periodic.{along}`");
+            problems.push(Problem::new(format!("tank.{key}"), message).help(help));
+        }
+        for (place, wall) in self.dem.walls.iter().enumerate() {
+            if !is_endless_along(wall, axis) {
+                let message = format!("this wall is not the same everywhere along {along}");
+                let help = format!(
+                    "use planes parallel to {along} and endless cylinders along it, or remove \
+                     `periodic.{along}`"
+                );
+                problems.push(Problem::new(format!("wall[{place}]"), message).help(help));
+            }
+        }
+    }
+
+    /// Effects must be the same at each image of a sphere.
+    fn check_effects_across(&self, axis: usize, problems: &mut Vec<Problem>) {
+        let along = AXES[axis];
+        let effects = &self.dem.effects;
+        let tables = [
+            ("swirl", axis < 2 && effects.swirl.is_some()),
+            ("updraught", effects.updraught.is_some()),
+        ];
+        for (table, _) in tables.into_iter().filter(|(_, is_refused)| *is_refused) {
+            let message = format!("this air is not the same everywhere along {along}");
+            let help = format!("remove [{table}], or remove `periodic.{along}`");
+            problems.push(Problem::new(table, message).help(help));
+        }
+        if axis == 2 && self.outlet_height().is_some() && self.dem.outlet.is_some() {
+            let message = "spheres leave below a height, but z is periodic";
+            let help = "remove [outlet], or remove `periodic.z`";
+            problems.push(Problem::new("outlet", message).help(help));
+        }
+        if axis == 1 && self.spheres.shape == Shape::Disc {
+            let message = "discs lie in the plane y = 0, and nothing is across it";
+            problems.push(Problem::new("periodic.y", message).help("remove it"));
+        }
+    }
+
+    /// Refuses what does not know periodic sides.
+    fn check_beside_periodic(&self, problems: &mut Vec<Problem>) {
+        if self.time.integrator == Integrator::AdaptiveVerlet {
+            let message = "adaptive Verlet does not know the periodic sides of `periodic`";
+            let help = "use another integrator, such as `integrator = \"velocity-verlet\"`";
+            problems.push(Problem::new("time.integrator", message).help(help));
+        }
+        if matches!(self.start, Start::Packing {}) {
+            let message = "a packing lies in the box of [tank], without periodic sides";
+            let help = "let the spheres fall from a start of `kind = \"random\"`, or list them";
+            problems.push(Problem::new("start.kind", message).help(help));
+        }
+        if self.spot.is_some() {
+            let message = "spots move in the box of [tank], without periodic sides";
+            problems.push(Problem::new("periodic", message).help("remove it"));
+        }
+    }
+}
+
+/// Whether a wall is the same everywhere along an axis.
+fn is_endless_along(wall: &SceneWall, axis: usize) -> bool {
+    let mut unit = [0.0; 3];
+    unit[axis] = 1.0;
+    let unit = Vector::from(unit);
+    if let Some(plane) = &wall.plane {
+        return plane.unit_normal().dot(unit).abs() < ALONG;
+    }
+    let endless = wall.cylinder.iter().filter(|it| it.length.is_none());
+    let mut axes = endless.map(|it| Vector::from(it.axis));
+    axes.any(|it| it.unit().cross(unit).norm() < ALONG)
+}
