@@ -236,7 +236,7 @@ fn forces_on_walls_are_columns_that_rules_read() {
             "walls = false",
             "only with `output.walls = true`",
         ),
-        ("lid_force_z", "roof_force_z", "there is no"),
+        ("lid_force_z", "roof_force_z", "neither a column"),
         ("floor_force_z) / 1[N]", "floor_torque_z) / 1[N]", "1[N]"),
     ] {
         assert!(asking.contains(good));
