@@ -237,7 +237,11 @@ fn forces_on_walls_are_columns_that_rules_read() {
             "only with `output.walls = true`",
         ),
         ("lid_force_z", "roof_force_z", "neither a column"),
-        ("floor_force_z) / 1[N]", "floor_torque_z) / 1[N]", "1[N]"),
+        (
+            "floor_force_z) / 1[N]",
+            "floor_force_z) + 1[m]",
+            "adds m to N",
+        ),
     ] {
         assert!(asking.contains(good));
         place.write("bad.toml", &asking.replace(good, bad));
