@@ -95,11 +95,15 @@ class Bed:
 
     def scene(self, law, steps):
         """The scene of the measurement, of one frame, from the spheres that are given."""
-        text = self.of_one_frame(law, steps)
-        start, end = text.index("[start]"), text.index("[gravity]")
         path = self.folder / f"{law}-{steps}.toml"
-        path.write_text(text[:start] + '[start]\nkind = "file"\npath = "bed.csv"\n\n' + text[end:])
+        path.write_text(self.from_file(self.of_one_frame(law, steps)))
         return path
+
+    @staticmethod
+    def from_file(text):
+        """The scene with the spheres that were taken last."""
+        start, end = text.index("[start]"), text.index("[gravity]")
+        return text[:start] + '[start]\nkind = "file"\npath = "bed.csv"\n\n' + text[end:]
 
     def of_one_frame(self, law, steps):
         friction = f"[friction]\n{LAWS[law]}" if LAWS[law] else ""
@@ -170,15 +174,15 @@ class Chute(Bed):
 
     def __init__(self, count, phase, folder):
         self.folder, self.count = folder, int(count)
-        places = [(i - (nx - 1) / 2, j - (ny - 1) / 2, 0.0) for nx, ny in [self.frozen] for i in range(nx) for j in range(ny)]
-        self.bottom = places
+        nx, ny = self.frozen
+        self.bottom = places = [(i - (nx - 1) / 2, j - (ny - 1) / 2, 0.0) for i in range(nx) for j in range(ny)]
         walls = ",\n".join(f"    {{ position = [{x}, {y}, {z}], radius = 0.5 }}" for x, y, z in places)
         geometry = f"[geometry]\nkind = \"list\"\nwalls = [\n{walls},\n]\n"
         text = self.replaced((FOLDER / "chute.toml").read_text(), {"count = 31200": f"count = {self.count}"})
         before, after = text.split("# geometry", 1)
         text = before + geometry + after.split("\n", 1)[1]
         height = 1.0 + self.count * math.pi / 6 / (0.25 * math.prod(self.frozen))
-        text = self.replaced(text, {"z_max = 90.0": f"z_max = {height!r}"})
+        text = self.replaced(text, {"z_max = 90.0": f"z_max = {height!r}", "x = 40.0": f"x = {nx}.0", "y = 20.0": f"y = {ny}.0"})
         self.text = self.replaced(text, {"tilt = 0.0": f"tilt = {math.radians(self.slope)!r}"})
         # They fall, and then flow.
         record = self.run(phase, "settled", self.replaced(text, self.times(40.0)))
@@ -201,3 +205,18 @@ class Chute(Bed):
 
     def of_one_frame(self, law, steps):
         return self.replaced(self.text, self.times(steps * self.dt, self.dt))
+
+    def write_lammps(self, sides):
+        """As others, with the frozen spheres as a second type."""
+        (x, y), moving = sides, self.spheres
+        top = max(sphere[2] for sphere in moving) + 5.0
+        atoms = [(1, sphere) for sphere in moving] + [(2, (*place, *[0.0] * 6)) for place in self.bottom]
+        head = f"chute\n\n{len(atoms)} atoms\n2 atom types\n\n{-x} {x} xlo xhi\n{-y} {y} ylo yhi\n-1.0 {top} zlo zhi\n\n"
+        wrapped = lambda place, side: (place + side) % (2 * side) - side
+        lines = ["Atoms\n"]
+        for number, (kind, sphere) in enumerate(atoms, 1):
+            place = wrapped(sphere[0], x), wrapped(sphere[1], y), sphere[2]
+            lines.append(f"{number} {kind} 1.0 {self.density} " + " ".join(map(repr, place)))
+        lines += ["\nVelocities\n"]
+        lines += [f"{number} " + " ".join(map(repr, sphere[3:])) for number, (_, sphere) in enumerate(atoms, 1)]
+        (self.folder / "bed.data").write_text(head + "\n".join(lines) + "\n")

@@ -244,8 +244,11 @@ impl DemSimulation {
 fn setup(scene: &Scene, particles: &Particles, skin: f64) -> SystemSetup {
     let tank = scene.tank.as_ref();
     let is_closed = scene.dem.door.is_some();
+    let walls = with_joints(Wall::of_scene(scene), joined_within(scene));
+    // Where walls join, too.
+    let in_space = |wall: Wall| wall.in_space(particles.domain);
     SystemSetup {
-        walls: with_joints(Wall::of_scene(scene), joined_within(scene)),
+        walls: walls.into_iter().map(in_space).collect(),
         closed_floor: tank
             .and_then(Wall::floor_with_opening)
             .filter(|_| is_closed),

@@ -35,9 +35,9 @@ pub(crate) trait Space: Copy {
 
 /// Open space, in which every offset is as it is.
 #[derive(Clone, Copy)]
-pub(crate) struct Open;
+pub(crate) struct OpenSpace;
 
-impl Space for Open {
+impl Space for OpenSpace {
     #[inline(always)]
     fn of(_domain: Domain) -> Self {
         Self

@@ -14,8 +14,8 @@ impl Wall {
     pub fn outline(&self) -> Vec<Vec<Vector>> {
         match &self.surface {
             WallSurface::Parallelogram(plate) => {
-                let ([a, b], corner) = (plate.edges, plate.corner);
-                vec![vec![corner, corner + a, corner + a + b, corner + b, corner]]
+                let [a, b, c, d] = plate.corners();
+                vec![vec![a, b, c, d, a]]
             }
             WallSurface::Revolved(surface) if surface.ends.iter().all(|end| end.is_finite()) => {
                 let rims = surface.ends.map(|end| surface.rim(end));

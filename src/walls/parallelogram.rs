@@ -34,6 +34,12 @@ impl Parallelogram {
         }
     }
 
+    /// Its four corners (m), in their order around.
+    pub fn corners(&self) -> [Vector; 4] {
+        let ([a, b], corner) = (self.edges, self.corner);
+        [corner, corner + a, corner + a + b, corner + b]
+    }
+
     /// Unit normal, on the side from which the way from the first edge to the second is
     /// counter-clockwise.
     pub fn normal(&self) -> Vector {

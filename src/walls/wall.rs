@@ -4,6 +4,7 @@ use super::{
     ContactSurface, Cylinder, Orifice, Parallelogram, Plane, Revolved, Slit, WallContact,
     WallSurface,
 };
+use crate::particles::Domain;
 use crate::particles::vector::Vector;
 use crate::scene::{Scene, SceneWall, Tank};
 use std::fmt;
@@ -81,6 +82,9 @@ pub struct Wall {
     pub centre: Vector,
     /// How it slides in itself. `None` at rest.
     pub motion: Option<SurfaceMotion>,
+    /// Its middle along the periodic axes (m) along which it ends, in a space that it spans. It is
+    /// the same everywhere along them, and spheres meet it there.
+    pub middle: [Option<f64>; 3],
     /// How often its forces count: once; less often where walls join, each of which counts there.
     pub weight: f64,
     /// How often they count as soon as the door is open: never if the wall is the door.
@@ -96,6 +100,7 @@ impl Wall {
             friction_coefficient: None,
             centre: Vector::ZERO,
             motion: None,
+            middle: [None; 3],
             weight: 1.0,
             weight_when_open: 1.0,
         }
@@ -108,7 +113,32 @@ impl Wall {
         let tank = tank.flat_map(|tank| Self::of_tank(tank, is_closed));
         let listed = scene.dem.walls.iter().enumerate();
         let listed = listed.filter_map(|(place, wall)| Self::listed(place, wall));
-        tank.chain(listed).collect()
+        let all = tank.chain(listed);
+        all.map(|wall| wall.in_space(scene.domain())).collect()
+    }
+
+    /// The wall in a space of this kind, which it spans along its periodic axes.
+    pub(crate) fn in_space(self, domain: Domain) -> Self {
+        let points = match self.surface {
+            WallSurface::Parallelogram(plate) => plate.corners().to_vec(),
+            WallSurface::Segment(line) => line.ends().to_vec(),
+            WallSurface::Revolved(surface) if surface.ends.iter().all(|end| end.is_finite()) => {
+                let ends = surface.ends.map(|end| surface.profile_at(end));
+                ends.map(|[_, along]| surface.base + surface.axis * along)
+                    .to_vec()
+            }
+            _ => Vec::new(),
+        };
+        let mut middle = [None; 3];
+        for (axis, _) in (0..3)
+            .zip(domain.periods())
+            .filter(|(_, period)| period.is_some())
+        {
+            let along = points.iter().map(|point| [point.x, point.y, point.z][axis]);
+            let sum: f64 = along.sum();
+            middle[axis] = (!points.is_empty()).then(|| sum / points.len() as f64);
+        }
+        Self { middle, ..self }
     }
 
     /// A wall of the list, at this place. `None` without a shape.
@@ -179,13 +209,24 @@ impl Wall {
     /// The contact of a sphere at this position.
     #[inline(always)]
     pub fn contact(&self, centre: Vector, radius: f64) -> WallContact {
-        self.surface.contact(centre, radius)
+        self.surface.contact(self.level(centre), radius)
     }
 
     /// Whether a sphere at this position touches it, or may after a displacement of `margin` (m).
     #[inline(always)]
     pub fn is_near(&self, centre: Vector, radius: f64, margin: f64) -> bool {
-        self.surface.is_near(centre, radius, margin)
+        self.surface.is_near(self.level(centre), radius, margin)
+    }
+
+    /// A centre, moved to the wall's [middle](Self::middle).
+    #[inline(always)]
+    fn level(&self, centre: Vector) -> Vector {
+        let [x, y, z] = self.middle;
+        Vector::new(
+            x.unwrap_or(centre.x),
+            y.unwrap_or(centre.y),
+            z.unwrap_or(centre.z),
+        )
     }
 
     /// Its velocity (m/s) where a sphere of this radius (m) touches it.

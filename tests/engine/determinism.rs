@@ -1,6 +1,9 @@
 //! The same input gives the same bits, a broken guard names its place, and nothing panics.
 
-use crate::scenes::{INTEGRATORS, State, cluster, frictions, shaken, state, tank, water};
+use crate::scenes::{
+    INTEGRATORS, State, cluster, frictions, integrators_at_walls, shaken, state, tank, walled,
+    water,
+};
 use phase::dem::{DemSimulation, timestep};
 use phase::record::{Guard, Instability};
 use phase::scene::{Coulomb, Friction, Integrator, Mindlin, Scene, Spin, StartSphere};
@@ -13,6 +16,7 @@ fn tanks() -> impl Iterator<Item = Scene> {
     let air = laws.flat_map(|law| INTEGRATORS.map(|integrator| tank(law.clone(), integrator)));
     air.chain(INTEGRATORS.map(water))
         .chain(INTEGRATORS.map(shaken))
+        .chain(integrators_at_walls().flat_map(walled))
 }
 
 fn run(scene: &Scene, steps: u64) -> State {

@@ -352,3 +352,49 @@ fn random_starts_do_not_overlap_across_the_sides() {
     }
     assert!(across > 10, "{across} pairs are close across the sides");
 }
+
+/// Between plates and in a tube that span the period, a sphere moves as between endless ones, time
+/// and again across the side.
+#[test]
+fn walls_that_span_the_period_are_endless() {
+    let friction = "friction = { law = 'mindlin', coefficient = 0.3 }
+        gravity = { acceleration = 9.8 }
+        contact = { law = 'hertz', young_modulus = 1e6, poisson_ratio = 0.3, restitution = 0.6 }";
+    let valley = |from: f64, length: f64| {
+        let plate = |edge: &str| {
+            format!(
+                "{{ plate = {{ corner = [0.0, {from}, 0.0], first_edge = {edge}, \
+                 second_edge = [0.0, {length}, 0.0] }} }}"
+            )
+        };
+        format!(
+            "wall = [{}, {}]",
+            plate("[0.1, 0.0, 0.1]"),
+            plate("[-0.1, 0.0, 0.05]")
+        )
+    };
+    let tube = |from: f64, length: f64| {
+        format!(
+            "wall = [{{ cylinder = {{ base = [0.0, {from}, 0.05], axis = [0.0, 1.0, 0.0], \
+             radius = 0.05, length = {length} }}, angular_velocity = 3.0 }}]"
+        )
+    };
+    let run = |walls: &str, periodic: &str| {
+        let text = format!(
+            "{friction}
+            {walls}
+            {periodic}
+            start = {{ kind = 'list', spheres = [{{ position = [0.01, 0.01, 0.03], \
+                       velocity = [0.0, 0.4, 0.0] }}] }}"
+        );
+        let mut simulation = DemSimulation::new(&scene(1, &text)).unwrap();
+        simulation.advance(20_000).unwrap();
+        simulation.particles().position[0]
+    };
+    for walls in [&valley as &dyn Fn(f64, f64) -> String, &tube] {
+        let found = run(&walls(-0.02, 0.05), "periodic = { y = 0.05 }");
+        let expected = run(&walls(-1.0, 2.0), "");
+        assert!((found - expected).norm() < 1e-9, "{found:?} {expected:?}");
+        assert!(found.y > 0.075, "{found:?}");
+    }
+}

@@ -72,6 +72,49 @@ pub(crate) fn shaken(integrator: Integrator) -> Scene {
     scene
 }
 
+/// Scenes between listed walls and periodic sides: a drum with a blade that turns with its ends,
+/// and a shaken slope under a belt.
+pub(crate) fn walled(integrator: Integrator) -> [Scene; 2] {
+    let text = |tables: &str| {
+        format!(
+            r#"
+            spheres = {{ count = 60, radius = 0.004, density = 1000.0 }}
+            time = {{ dt = 2e-5, duration = 0.1, frame_interval = 2e-3, integrator = "velocity-verlet" }}
+            gravity = {{ acceleration = 9.81, tilt = 0.1 }}
+            start = {{ kind = "random", x = [-0.03, 0.03], y = [-0.02, 0.02], z_min = -0.03, z_max = 0.03, speed = 1.0, spin = 50.0 }}
+            {tables}"#
+        )
+    };
+    let drum = r#"
+        contact = { law = "hooke", stiffness = 2000.0, damping_rate = 200.0 }
+        friction = { law = "hooke", coefficient = 0.5, stiffness = 600.0, damping_rate = 100.0 }
+        wall = [
+            { cylinder = { base = [0.0, -0.03, 0.0], axis = [0.0, 1.0, 0.0], radius = 0.05, length = 0.06 }, angular_velocity = 12.0 },
+            { disc = { centre = [0.0, -0.03, 0.0], axis = [0.0, 1.0, 0.0], radius = 0.05 }, angular_velocity = 12.0 },
+            { disc = { centre = [0.0, 0.03, 0.0], axis = [0.0, 1.0, 0.0], radius = 0.05 }, friction_coefficient = 0.2 },
+            { plate = { corner = [-0.05, -0.03, 0.0], first_edge = [0.01, 0.0, 0.0], second_edge = [0.0, 0.06, 0.0] } },
+        ]"#;
+    let slope = r#"
+        contact = { law = "tsuji", young_modulus = 1e6, poisson_ratio = 0.3, restitution = 0.7 }
+        friction = { law = "mindlin", coefficient = 0.4 }
+        periodic = { x = 0.06, y = 0.04 }
+        tank = { floor = -0.034 }
+        wall = [{ plane = { point = [0.0, 0.0, 0.036], normal = [0.0, 0.0, -1.0] }, velocity = [0.5, 0.2, 0.0] }]
+        shaking = { amplitude = 1e-3, frequency = 40.0, direction = [0.2, 0.0, 1.0], phase = 0.3 }"#;
+    [drum, slope].map(|tables| {
+        let mut scene: Scene = toml::from_str(&text(tables)).unwrap();
+        assert_eq!(scene.problems(), []);
+        scene.time.integrator = integrator;
+        scene
+    })
+}
+
+/// Integrators that know listed walls and periodic sides.
+pub(crate) fn integrators_at_walls() -> impl Iterator<Item = Integrator> {
+    let all = INTEGRATORS.into_iter();
+    all.filter(|it| *it != Integrator::AdaptiveVerlet)
+}
+
 /// Takes the air out of a scene and shakes it.
 pub(crate) fn shake(scene: &mut Scene) {
     let effects = &mut scene.dem.effects;

@@ -4,7 +4,7 @@
 //! of a pair.
 
 use crate::particles::block::ROWS;
-use crate::particles::domain::{Open, Space};
+use crate::particles::domain::{OpenSpace, Space};
 use crate::particles::vector::Vector;
 use crate::particles::{Domain, Particles, retain};
 
@@ -150,7 +150,7 @@ impl Allowance {
     #[inline(always)]
     pub fn hold(&self, positions: &[Vector], references: &[Reference]) -> bool {
         match self.domain.is_open() {
-            true => self.hold_in::<Open>(positions, references),
+            true => self.hold_in::<OpenSpace>(positions, references),
             false => self.hold_in::<Domain>(positions, references),
         }
     }

@@ -3,7 +3,7 @@
 
 use super::{Reach, WORD};
 use crate::particles::Particles;
-use crate::particles::domain::{Domain, Open, Space};
+use crate::particles::domain::{Domain, OpenSpace, Space};
 use fearless_simd::{Level, Simd, SimdBase, SimdMask, f64x8};
 
 /// Up to this number of spheres all pairs are tested.
@@ -49,7 +49,7 @@ impl FewSpheres {
         found: &mut Vec<u32>,
     ) {
         fearless_simd::dispatch!(level, simd => match self.domain.is_open() {
-            true => self.find_in::<Open, _>(simd, (i, first), (reach, skin), found),
+            true => self.find_in::<OpenSpace, _>(simd, (i, first), (reach, skin), found),
             false => self.find_in::<Domain, _>(simd, (i, first), (reach, skin), found),
         });
     }

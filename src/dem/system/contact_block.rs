@@ -40,8 +40,9 @@ pub(super) struct ContactBlock<H> {
     earlier_spin: [VectorColumns; 2],
     /// Properties of both, which do not change from step to step.
     properties: [PropertyColumns; 2],
-    /// Whether all spheres are alike.
+    /// Whether all spheres are alike, and whether the latest pairs of such spheres had fixed ones.
     alike: bool,
+    has_fixed: bool,
     /// 1 / (r1 + r2) of a pair (1/m).
     inverse_sum: BlockColumn,
     /// [`Roots`] of every pair.
@@ -89,6 +90,7 @@ impl<H: History> ContactBlock<H> {
                 PropertyColumns::all(SphereProperties::WALL),
             ],
             alike: false,
+            has_fixed: false,
             inverse_sum: [0.0; BLOCK],
             inverse_distance: [0.0; BLOCK],
             contact_radius: [0.0; BLOCK],
@@ -118,6 +120,7 @@ impl<H: History> ContactBlock<H> {
         alike: Option<SphereProperties>,
     ) {
         self.alike = alike.is_some();
+        self.has_fixed = false;
         if let Some(properties) = alike {
             self.properties = [
                 PropertyColumns::all(properties),

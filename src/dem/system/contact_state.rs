@@ -97,9 +97,10 @@ impl SphereProperties {
         inertia: 0.0,
     };
 
-    /// The properties of all spheres, if they are alike to the laws.
+    /// The properties of all spheres, if they are alike to the laws: of those that move.
     pub(super) fn of_all<N: NormalLaw, T: TangentialLaw>(particles: &Particles) -> Option<Self> {
         let Particles {
+            fixed,
             radius,
             mass,
             inverse_mass,
@@ -107,13 +108,20 @@ impl SphereProperties {
             ..
         } = particles;
         let same = |values: &[f64]| values.windows(2).all(|pair| pair[0] == pair[1]);
-        // Only the effective mass distinguishes fixed spheres from others.
+        // Only the effective mass distinguishes spheres at rest from others. Fixed ones come first,
+        // and a block of pairs looks at them; driven ones may be anywhere.
         let reads_inverse_mass = Laws::<N, T>::NEEDS_EFFECTIVE_MASS;
         let alike = same(radius)
             && same(mass)
             && same(inertia)
-            && (!reads_inverse_mass || same(inverse_mass));
-        let first = |values: &[f64]| values.first().copied().unwrap_or(0.0);
+            && (!reads_inverse_mass || same(inverse_mass.get(*fixed..).unwrap_or_default()));
+        let first = |values: &[f64]| {
+            values
+                .get(*fixed)
+                .or(values.first())
+                .copied()
+                .unwrap_or(0.0)
+        };
         alike.then(|| Self {
             radius: first(radius),
             mass: first(mass),

@@ -240,6 +240,7 @@ impl<'a, H: History> ContactTask<'a, H> {
             let lanes = full_block(spheres, &mut rest);
             let lanes = partners.local_spheres(lanes, &mut local);
             block.gather_spheres::<S, N, T>(simd, lanes, histories, partners);
+            block.level(wall);
             match wall.surface {
                 WallSurface::Plane(surface) => block.find_wall_contacts(surface, &laws),
                 WallSurface::Cylinder(surface) => block.find_wall_contacts(surface, &laws),

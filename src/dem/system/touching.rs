@@ -5,7 +5,7 @@ use super::contact_state::SphereProperties;
 use super::partners::Partners;
 use crate::dem::neighbours::{NearPair, keep_pairs};
 use crate::particles::block::{BLOCK, ROWS, row, turned};
-use crate::particles::domain::{Domain, Open, Space};
+use crate::particles::domain::{Domain, OpenSpace, Space};
 use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask32x8, mask64x8, u32x8};
 use prefetch_index::prefetch_index;
 
@@ -131,7 +131,7 @@ impl Touching {
     ) -> usize {
         // Compiled for each kind of space: open space computes nothing for images.
         match partners.domain.is_open() {
-            true => self.find_in::<Open, S, H>(simd, near, from, histories, partners, alike),
+            true => self.find_in::<OpenSpace, S, H>(simd, near, from, histories, partners, alike),
             false => self.find_in::<Domain, S, H>(simd, near, from, histories, partners, alike),
         }
     }

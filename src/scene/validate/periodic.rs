@@ -25,7 +25,7 @@ impl Scene {
         for (axis, period) in periods.into_iter().enumerate() {
             if let Some(period) = period {
                 self.check_period(axis, period, problems);
-                self.check_walls_across(axis, problems);
+                self.check_walls_across(axis, period, problems);
                 self.check_effects_across(axis, problems);
             }
         }
@@ -47,7 +47,7 @@ impl Scene {
     }
 
     /// Walls must look the same from each image of a sphere.
-    fn check_walls_across(&self, axis: usize, problems: &mut Vec<Problem>) {
+    fn check_walls_across(&self, axis: usize, period: f64, problems: &mut Vec<Problem>) {
         let along = AXES[axis];
         let tank = self.tank.clone().unwrap_or_default();
         let keys: &[(&str, bool)] = match axis {
@@ -70,11 +70,11 @@ impl Scene {
             problems.push(Problem::new(format!("tank.{key}"), message).help(help));
         }
         for (place, wall) in self.dem.walls.iter().enumerate() {
-            if !is_endless_along(wall, axis) {
+            if !is_same_along(wall, axis, period) {
                 let message = format!("this wall is not the same everywhere along {along}");
                 let help = format!(
-                    "use planes parallel to {along} and endless cylinders along it, or remove \
-                     `periodic.{along}`"
+                    "use planes parallel to {along}, and cylinders and rectangles that span the \
+                     period along it, or remove `periodic.{along}`"
                 );
                 problems.push(Problem::new(format!("wall[{place}]"), message).help(help));
             }
@@ -124,15 +124,25 @@ impl Scene {
     }
 }
 
-/// Whether a wall is the same everywhere along an axis.
-fn is_endless_along(wall: &SceneWall, axis: usize) -> bool {
+/// Whether a wall is the same everywhere along an axis of this period (m).
+fn is_same_along(wall: &SceneWall, axis: usize, period: f64) -> bool {
     let mut unit = [0.0; 3];
     unit[axis] = 1.0;
     let unit = Vector::from(unit);
+    let spans = |length: f64| length >= period * (1.0 - ALONG);
     if let Some(plane) = &wall.plane {
-        return plane.unit_normal().dot(unit).abs() < ALONG;
+        // A plane that turns is slower near its axis.
+        return plane.unit_normal().dot(unit).abs() < ALONG && wall.angular_velocity.is_none();
     }
-    let endless = wall.cylinder.iter().filter(|it| it.length.is_none());
-    let mut axes = endless.map(|it| Vector::from(it.axis));
-    axes.any(|it| it.unit().cross(unit).norm() < ALONG)
+    if let Some(plate) = &wall.plate {
+        let [one, other] = plate.edges();
+        let is_rectangle = one.unit().dot(other.unit()).abs() < ALONG;
+        let is_along = |edge: Vector| edge.unit().cross(unit).norm() < ALONG;
+        let mut edges = [one, other].into_iter();
+        return is_rectangle && edges.any(|edge| is_along(edge) && spans(edge.norm()));
+    }
+    wall.cylinder.as_ref().is_some_and(|it| {
+        let is_along = Vector::from(it.axis).unit().cross(unit).norm() < ALONG;
+        is_along && it.length.is_none_or(spans)
+    })
 }

@@ -1,7 +1,7 @@
 //! The library: a run in parts has the bits of a whole one.
 
 use super::bench::whole;
-use crate::scenes::{frictions, shaken, state, tank, water};
+use crate::scenes::{frictions, integrators_at_walls, shaken, state, tank, walled, water};
 use crate::support::{Workplace, silo_file};
 use phase::dem::DemSimulation;
 use phase::record::{MilestoneKind, Outcome, RunRecord};
@@ -105,6 +105,12 @@ fn a_tank_with_every_effect_goes_on_with_the_same_bits() {
         let mut scene = shaken(integrator);
         scene.output.ledger = ledger;
         assert_same_bits(scene, 37);
+    }
+    for (integrator, ledger) in integrators_at_walls().flat_map(|it| [(it, false), (it, true)]) {
+        for mut scene in walled(integrator) {
+            scene.output.ledger = ledger;
+            assert_same_bits(scene, 17);
+        }
     }
 }
 

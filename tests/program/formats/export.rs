@@ -219,3 +219,106 @@ fn exports_go_where_they_are_sent() {
         .code(2)
         .complains("is not a run record");
 }
+
+/// Others read the polygons of listed walls.
+#[test]
+fn others_read_the_walls() {
+    let place = Workplace::new();
+    let walls = "[[wall]]
+plate = { corner = [0.5, 0.0, 0.1], first_edge = [0.2, 0.0, 0.0], second_edge = [0.0, 0.3, 0.0] }
+
+[[wall]]
+disc = { centre = [0.0, 0.0, 0.7], radius = 0.02 }
+";
+    place.write("scene.toml", &(scene_file() + walls));
+    place
+        .phase(&["run", "scene.toml", "--out", "run.h5"])
+        .code(0);
+    place
+        .phase(&["export", "run.h5", "--to", "vtk", "--out", "out"])
+        .code(0);
+    assert!(place.read("out/run.pvd").contains("run/surfaces.vtp"));
+    if !readers() {
+        return;
+    }
+    let script = "import sys
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+reader = vtkXMLPolyDataReader()
+reader.SetFileName(sys.argv[1])
+reader.Update()
+walls = reader.GetOutput()
+assert walls.GetNumberOfPolys() >= 2, walls
+low_x, high_x, low_y, high_y, low_z, high_z = walls.GetBounds()
+assert abs(high_x - 0.7) < 1e-12 and abs(high_y - 0.3) < 1e-12, walls.GetBounds()
+assert abs(low_x + 0.02) < 1e-3 and abs(low_y + 0.02) < 1e-3, walls.GetBounds()
+assert abs(low_z - 0.1) < 1e-12 and abs(high_z - 0.7) < 1e-12, walls.GetBounds()
+";
+    let result = Command::new(python())
+        .args(["-c", script])
+        .arg(place.path("out/run/surfaces.vtp"))
+        .output()
+        .unwrap();
+    let error = String::from_utf8_lossy(&result.stderr);
+    assert!(result.status.success(), "{error}");
+}
+
+/// A sphere leaves on the right and comes in on the left: pictures and programs that show the box
+/// find it there, numbers to compute with go on.
+#[test]
+fn exports_show_the_images_in_a_periodic_box() {
+    let place = Workplace::new();
+    let scene = "[spheres]
+count = 1
+radius = 0.004
+density = 1000.0
+
+[periodic]
+x = 0.1
+
+[start]
+kind = \"list\"
+spheres = [{ position = [0.03, 0.01, 0.02], velocity = [0.1, 0.0, 0.0] }]
+
+[time]
+dt = 1e-3
+duration = 1.0
+frame_interval = 0.25
+
+[output]
+snapshot_interval = 0.25
+";
+    place.write("scene.toml", scene);
+    place
+        .phase(&["run", "scene.toml", "--out", "run.h5"])
+        .code(0);
+    for format in ["xyz", "csv", "vtk", "page"] {
+        place.phase(&["export", "run.h5", "--to", format]).code(0);
+    }
+    let xyz = place.read("run.xyz");
+    assert!(xyz.contains("Lattice=\"0.1 "), "{xyz}");
+    assert!(xyz.contains("Origin=\"-0.05 "), "{xyz}");
+    assert!(xyz.contains("pbc=\"T F F\""), "{xyz}");
+    let column = |text: &str, lines: &str, separator: char, at: usize| -> Vec<f64> {
+        let rows = text.lines().filter(|line| line.starts_with(lines));
+        let number = |row: &str| row.split(separator).nth(at).unwrap().parse().unwrap();
+        rows.map(number).collect()
+    };
+    let shown = column(&xyz, "X", ' ', 1);
+    let table = place.read("run.csv");
+    let at = table
+        .lines()
+        .next()
+        .unwrap()
+        .split(',')
+        .position(|it| it == "x");
+    let numbers: Vec<f64> = (table.lines().skip(1))
+        .map(|row| row.split(',').nth(at.unwrap()).unwrap().parse().unwrap())
+        .collect();
+    let places = [0.03, 0.055, 0.08, 0.105, 0.13];
+    for (state, place) in places.into_iter().enumerate() {
+        assert!((numbers[state] - place).abs() < 1e-9, "{numbers:?}");
+        let image = if place < 0.05 { place } else { place - 0.1 };
+        assert!((shown[state] - image).abs() < 1e-9, "{shown:?}");
+    }
+    place.phase(&["view", "run.h5", "--width", "100"]).code(0);
+}

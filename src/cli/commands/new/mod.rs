@@ -7,7 +7,7 @@ use phase::store;
 use std::path::{Path, PathBuf};
 
 /// Write a file to start from, with comments: a scene, sweep, silo, spot or program, or a hopper, a
-/// drum, a shaken box.
+/// drum, a chute, a shaken box.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Example: a tank, and a sweep over it
@@ -50,6 +50,8 @@ enum Kind {
     Hopper,
     /// One simulation of a drum that turns.
     Drum,
+    /// One simulation of a chute between periodic sides.
+    Chute,
     /// One simulation of a shaken box.
     Shaken,
 }
@@ -62,6 +64,7 @@ const MODEL: &str = include_str!("model.py");
 const SWEEP: &str = include_str!("sweep.toml");
 const HOPPER: &str = include_str!("../../../../sweeps/scenes/hopper.toml");
 const DRUM: &str = include_str!("../../../../sweeps/scenes/drum.toml");
+const CHUTE: &str = include_str!("../../../../sweeps/scenes/chute.toml");
 const SHAKEN: &str = include_str!("../../../../sweeps/scenes/shaken.toml");
 
 /// The line of the starter sweep that names its scene.
@@ -92,6 +95,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         (Kind::Program, _) => program_of(&path),
         (Kind::Hopper, _) => shipped(HOPPER),
         (Kind::Drum, _) => shipped(DRUM),
+        (Kind::Chute, _) => shipped(CHUTE),
         (Kind::Shaken, _) => shipped(SHAKEN),
         (Kind::Sweep, Some(scene)) => sweep_of_file(&from_folder_of(&path, scene))?,
         (Kind::Sweep, None) => sweep_of_table(),
@@ -110,7 +114,13 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         ));
     }
     let kind = match arguments.kind {
-        Kind::Scene | Kind::Silo | Kind::Spot | Kind::Hopper | Kind::Drum | Kind::Shaken => "scene",
+        Kind::Scene
+        | Kind::Silo
+        | Kind::Spot
+        | Kind::Hopper
+        | Kind::Drum
+        | Kind::Chute
+        | Kind::Shaken => "scene",
         Kind::Sweep | Kind::Program => "sweep",
     };
     console.note(format_args!(

@@ -4,6 +4,7 @@
 
 use super::ContactBlock;
 use crate::dem::system::contact_laws::Laws;
+use crate::dem::system::contact_state::SphereProperties;
 use crate::dem::system::partners::Partners;
 use crate::dem::system::touching::{ContactLanes, Entries};
 use crate::dem::system::wall_contacts::NearSphere;
@@ -29,6 +30,8 @@ impl<H: History> ContactBlock<H> {
         self.gather_motion::<S, T>(simd, pairs, partners);
         if !self.alike {
             self.gather_properties::<N, T>(pairs, partners);
+        } else if Laws::<N, T>::NEEDS_EFFECTIVE_MASS {
+            self.weigh_fixed::<N, T>(pairs, partners);
         }
         match pairs.entries {
             Entries::Listed(entries) => self.gather_springs(
@@ -136,6 +139,29 @@ impl<H: History> ContactBlock<H> {
         }
         for (k, effective) in self.effective_mass.iter_mut().enumerate() {
             *effective = Laws::<N, T>::effective_mass([one.at(k), other.at(k)]);
+        }
+    }
+
+    /// Effective masses of pairs of spheres that are alike, but that some are fixed. Fixed spheres
+    /// come first in a pair, and pairs with them first in the list: most blocks have none.
+    #[inline(always)]
+    fn weigh_fixed<N: NormalLaw, T: TangentialLaw<History = H>>(
+        &mut self,
+        pairs: &ContactLanes<'_>,
+        partners: &Partners<'_>,
+    ) {
+        let inverse_mass = |sphere: u32| partners.inverse_mass[sphere as usize];
+        let has_fixed = inverse_mass(pairs.pairs[0].i()) == 0.0;
+        if !has_fixed && !self.has_fixed {
+            return;
+        }
+        self.has_fixed = has_fixed;
+        for (effective, pair) in self.effective_mass.iter_mut().zip(pairs.pairs) {
+            let of = |sphere: u32| SphereProperties {
+                inverse_mass: inverse_mass(sphere),
+                ..SphereProperties::WALL
+            };
+            *effective = Laws::<N, T>::effective_mass([of(pair.i()), of(pair.j())]);
         }
     }
 

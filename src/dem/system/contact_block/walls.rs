@@ -7,9 +7,19 @@ use crate::forces::contact::{NormalLaw, contact_radius};
 use crate::forces::friction::{History, TangentialLaw};
 use crate::particles::block::BLOCK;
 use crate::particles::vector::Vector;
-use crate::walls::{ContactSurface, SurfaceMotion};
+use crate::walls::{ContactSurface, SurfaceMotion, Wall};
 
 impl<H: History> ContactBlock<H> {
+    /// Moves the centres to the middle of a wall, along the axes that have one.
+    #[inline(always)]
+    pub(in crate::dem::system) fn level(&mut self, wall: &Wall) {
+        for (column, middle) in self.offset.0.iter_mut().zip(wall.middle) {
+            if let Some(middle) = middle {
+                column.fill(middle);
+            }
+        }
+    }
+
     /// Finds the contact of every sphere with the surface of a wall.
     #[inline(always)]
     pub(in crate::dem::system) fn find_wall_contacts<
