@@ -1,10 +1,12 @@
 //! Further columns of contacts, in runs that ask for them.
 
 use super::system::{Engine, Partner, SeenContact};
+use super::wall_loads::WallLoads;
+use crate::document::lasting;
 use crate::measure::{LayerOfScene, ShearSums, TankLayer};
 use crate::particles::Particles;
 use crate::particles::vector::Vector;
-use crate::scene::{FurtherColumn, Scene};
+use crate::scene::{FurtherColumn, Scene, WallColumn};
 use crate::simulation::Column;
 
 /// The columns of contacts that a scene asks for.
@@ -12,6 +14,8 @@ pub(super) struct ContactColumns {
     columns: Vec<FurtherColumn>,
     declared: Vec<Column>,
     layer: Option<LayerOfScene>,
+    /// Absent if forces on walls are not asked for.
+    walls: Option<WallLoads>,
     /// Density of the spheres (kg/m3).
     density: f64,
     /// Mean diameter of all spheres of the scene (m).
@@ -63,9 +67,14 @@ impl ContactColumns {
         let own = asked.filter(|it| it.is_of_contacts() && !it.is_usual_in(scene));
         let mut columns: Vec<FurtherColumn> = own.collect();
         columns.sort_unstable();
-        (!columns.is_empty()).then(|| Self {
-            declared: columns.iter().map(|&column| column.into()).collect(),
+        let walls = scene.output.walls.then(|| WallLoads::new(scene));
+        let of_walls = walls.iter().flat_map(|_| scene.wall_columns());
+        let declared = columns.iter().map(|&column| column.into());
+        let declared: Vec<Column> = declared.chain(of_walls.map(column_of_wall)).collect();
+        (!declared.is_empty()).then(|| Self {
+            declared,
             columns,
+            walls,
             layer: LayerOfScene::new(scene),
             density: scene.spheres.density,
             diameter: 2.0 * mean_radius,
@@ -82,8 +91,8 @@ impl ContactColumns {
     pub(super) fn values(&mut self, engine: &mut dyn Engine) -> Vec<f64> {
         let particles = engine.particles();
         let fixed = particles.fixed;
-        let forces = self.columns.iter().any(|it| it.is_of_forces());
-        let layer = self.layer.filter(|_| forces);
+        let stress = self.columns.iter().any(|it| it.is_of_forces());
+        let layer = self.layer.filter(|_| stress);
         let layer = layer.map(|layer| layer.at(height_mean(particles)));
         let mut sums = ContactSums::default();
         if let Some(layer) = &layer {
@@ -92,10 +101,14 @@ impl ContactColumns {
         let touched = &mut self.touched;
         touched.clear();
         touched.resize(particles.len() - fixed, Touched::default());
-        engine.see_contacts(forces, &mut |contact| {
+        let walls = &mut self.walls;
+        if let Some(walls) = walls {
+            walls.begin(&engine.walls_that_act());
+        }
+        engine.see_contacts(stress || walls.is_some(), &mut |contact| {
             let one = &mut touched[contact.sphere - fixed];
             one.anything = true;
-            one.wall |= contact.partner == Partner::Wall;
+            one.wall |= matches!(contact.partner, Partner::Wall(_));
             sums.count += contact.weight;
             if let Partner::Sphere(other) = contact.partner {
                 touched[other - fixed].anything = true;
@@ -104,10 +117,15 @@ impl ContactColumns {
             if let Some(layer) = &layer {
                 sums.add_force(&contact, layer);
             }
+            if let (Some(walls), Partner::Wall(touch)) = (walls.as_mut(), &contact.partner) {
+                walls.add(touch, contact.force);
+            }
         });
         let volume = layer.map_or(f64::NAN, |layer| layer.volume());
         let columns = self.columns.iter();
-        columns.map(|&it| self.value(it, &sums, volume)).collect()
+        let of_walls = self.walls.iter().flat_map(WallLoads::values);
+        let values = columns.map(|&it| self.value(it, &sums, volume));
+        values.chain(of_walls).collect()
     }
 
     /// A value, from the sums and the layer's volume (m3).
@@ -171,6 +189,14 @@ impl ContactSums {
         } = *contact;
         let share = layer.share_of_line([height, height - branch.z]);
         self.stress.add(share, force, branch);
+    }
+}
+
+fn column_of_wall(column: WallColumn) -> Column {
+    Column {
+        name: lasting(&column.name),
+        unit: column.unit,
+        description: lasting(&column.description),
     }
 }
 

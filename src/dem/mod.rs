@@ -26,6 +26,7 @@ mod state;
 mod system;
 mod threads;
 pub mod timestep;
+mod wall_loads;
 
 mod work;
 

@@ -244,7 +244,7 @@ impl DemSimulation {
 fn setup(scene: &Scene, particles: &Particles, skin: f64) -> SystemSetup {
     let tank = scene.tank.as_ref();
     let is_closed = scene.dem.door.is_some();
-    let walls = with_joints(Wall::of_scene(scene), JOINED * scene.smallest_radius());
+    let walls = with_joints(Wall::of_scene(scene), joined_within(scene));
     // Where walls join, too.
     let in_space = |wall: Wall| wall.in_space(particles.domain);
     SystemSetup {
@@ -269,6 +269,11 @@ fn setup(scene: &Scene, particles: &Particles, skin: f64) -> SystemSetup {
         sorted: false,
         flows: false,
     }
+}
+
+/// Distance within which walls of a scene count as joined (m).
+pub(super) fn joined_within(scene: &Scene) -> f64 {
+    JOINED * scene.smallest_radius()
 }
 
 /// The paths of the driven spheres of a scene, in the order of the spheres.

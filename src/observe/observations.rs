@@ -227,6 +227,10 @@ impl Observations {
             let stem = profile.stem();
             usual.own.retain(|series| !series.name.starts_with(&stem));
         }
+        if scene.output.walls {
+            let of_walls: Vec<_> = scene.wall_columns().map(|column| column.name).collect();
+            usual.own.retain(|series| !of_walls.contains(&series.name));
+        }
         usual
     }
 

@@ -31,6 +31,7 @@ mod tree;
 mod units;
 mod validate;
 mod vary;
+mod wall_columns;
 
 pub use accuracy::Accuracy;
 pub use change::Change;
@@ -70,6 +71,7 @@ pub use time::{Integrator, Time};
 pub use units::Units;
 pub(crate) use validate::{multiple, plural, rounded};
 pub(crate) use vary::Template;
+pub use wall_columns::WallColumn;
 
 // All tables of effects.
 pub use crate::forces::effects::*;

@@ -29,6 +29,10 @@ pub struct Output {
     /// Profiles over height or radius, whose bins are further columns.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub profiles: Vec<ColumnProfile>,
+    /// The force and the torque of the spheres on each wall of the scene, as further columns such as
+    /// `floor_force_z` and `drum_torque_y`.
+    #[serde(skip_serializing_if = "is_default")]
+    pub walls: bool,
     /// The layer in which columns such as `pressure` are measured. Absent: from the floor to twice
     /// the mean height of the centres above it, which is the height of a uniform bed.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -56,6 +60,7 @@ impl Default for Output {
             usual: UsualColumns::default(),
             columns: Vec::new(),
             profiles: Vec::new(),
+            walls: false,
             layer: None,
             profile_bins: None,
             rise_speeds: vec![5.0, 10.0, 20.0],
@@ -88,6 +93,7 @@ impl Output {
             usual: UsualColumns::default(),
             columns: Vec::new(),
             profiles: Vec::new(),
+            walls: false,
             ..output.clone()
         };
         let has_usual = match (&self.usual, &wanted.usual) {
@@ -101,6 +107,7 @@ impl Output {
         let mut profiles = wanted.profiles.iter();
         apart(self) == apart(wanted)
             && has_usual
+            && (self.walls || !wanted.walls)
             && further.all(|it| self.columns.contains(it))
             && profiles.all(|it| self.profiles.contains(it))
     }

@@ -54,6 +54,20 @@ impl Tank {
         [self.width, self.depth].map(|side| self.radius.or(side.map(|side| 0.5 * side)))
     }
 
+    /// What its walls are called in columns, in the order in which they act.
+    pub(crate) fn wall_names(&self) -> impl Iterator<Item = &'static str> {
+        let sides = [
+            (self.width, ["left", "right"]),
+            (self.depth, ["front", "back"]),
+        ];
+        let sides = sides.into_iter().filter(|_| self.radius.is_none());
+        let sides = sides.filter_map(|(reach, names)| reach.map(|_| names));
+        let floor = self.floor.map(|_| "floor").into_iter();
+        floor
+            .chain(self.radius.map(|_| "cylinder"))
+            .chain(sides.flatten())
+    }
+
     /// Half of the width of the opening in its floor along x (m), and its key, if there is one.
     pub fn opening(&self) -> Option<(&'static str, f64)> {
         let round = self.orifice_radius.map(|it| ("tank.orifice_radius", it));

@@ -289,11 +289,14 @@ impl Sweep {
                     usual,
                     columns,
                     profiles,
+                    walls,
                     ..
                 } = &mut scene.output;
                 *usual = UsualColumns::default();
                 columns.clear();
                 profiles.clear();
+                *walls = false;
+                scene.forget_names_of_walls();
                 scene.program = scene.program.take().map(ExternalProgram::without_limits);
             }
             runs

@@ -280,7 +280,7 @@ pub(super) fn standing(job: &Job, path: &Path) -> Standing {
             path: path.to_owned(),
             keys,
         })
-    } else if !record.scene.output.holds(&scene.output) {
+    } else if !record.scene.has_output_of(&scene) {
         Standing::OtherOutput
     } else {
         Standing::Done(Done {
@@ -294,9 +294,13 @@ pub(super) fn standing(job: &Job, path: &Path) -> Standing {
 
 /// Keys in which two scenes differ that change the motion.
 fn differing_keys_of_motion(a: &Scene, b: &Scene) -> Vec<String> {
-    let motion = |scene: &Scene| Scene {
-        output: Output::default(),
-        ..scene.without_list().without_names()
+    let motion = |scene: &Scene| {
+        let mut motion = Scene {
+            output: Output::default(),
+            ..scene.without_list().without_names()
+        };
+        motion.forget_names_of_walls();
+        motion
     };
     let mut keys = differing_keys(&motion(a), &motion(b));
     // Lists are compared directly: trees of values would take kilobytes for each sphere.

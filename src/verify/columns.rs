@@ -54,7 +54,7 @@ impl CaseFamily for Columns {
             layer: self.layer,
             ..Output::default()
         };
-        let scene = Scene {
+        let mut scene = Scene {
             tank: self.tank.clone(),
             dem: DemScene {
                 contact: Some(self.material.contact()),
@@ -73,6 +73,8 @@ impl CaseFamily for Columns {
                 self.dt,
             )
         };
+        let asks_for_walls = (scene.wall_columns()).any(|column| bench.expects(&column.name));
+        scene.output.walls = asks_for_walls;
         let mut simulation = DemSimulation::new(&scene)?;
         bench.advance_for(&mut simulation, self.duration, self.dt)?;
         let declared = simulation.columns();

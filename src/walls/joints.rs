@@ -52,6 +52,24 @@ pub fn with_joints(walls: Vec<Wall>, tolerance: f64) -> Vec<Wall> {
     [walls, joints].concat()
 }
 
+/// Which walls share the forces of each wall or joint, by their places: for `joined`, the first
+/// `count` of which are walls and the rest the joints that [`with_joints`] found between them. A
+/// wall keeps its own; a joint's belong to the walls that hold it.
+pub fn sharers(joined: &[Wall], count: usize, tolerance: f64) -> Vec<Vec<usize>> {
+    let (walls, joints) = joined.split_at(count);
+    let of_walls = (0..count).map(|place| vec![place]);
+    let of_joints = joints.iter().map(|joint| {
+        let is_held = |place: &usize| holds(&walls[*place].surface, &joint.surface, tolerance);
+        let holding: Vec<usize> = (0..count).filter(is_held).collect();
+        let named = || walls.iter().position(|wall| wall.name == joint.name);
+        match holding.is_empty() {
+            true => named().into_iter().collect(),
+            false => holding,
+        }
+    });
+    of_walls.chain(of_joints).collect()
+}
+
 fn joints_of(walls: &[&Wall], tolerance: f64) -> Vec<Wall> {
     let mut joints: Vec<Wall> = Vec::new();
     for (place, one) in walls.iter().enumerate() {
@@ -69,11 +87,7 @@ fn joints_of(walls: &[&Wall], tolerance: f64) -> Vec<Wall> {
         }
     }
     for joint in &mut joints {
-        let places = probes(&joint.surface);
-        let holds = |wall: &&&Wall| {
-            let mut places = places.iter();
-            places.all(|&place| lies_on(place, &wall.surface, tolerance))
-        };
+        let holds = |wall: &&&Wall| holds(&wall.surface, &joint.surface, tolerance);
         joint.weight = 1.0 - walls.iter().filter(holds).count() as f64;
     }
     let corners = corners_of(walls, &joints, tolerance);
@@ -139,13 +153,15 @@ fn probes(seam: &WallSurface) -> Vec<Vector> {
     }
 }
 
+/// Whether a seam lies on a surface, or on another seam.
+fn holds(surface: &WallSurface, seam: &WallSurface, tolerance: f64) -> bool {
+    let mut places = probes(seam).into_iter();
+    places.all(|place| lies_on(place, surface, tolerance))
+}
+
 /// Whether two seams are the same line.
 fn is_same(one: &WallSurface, other: &WallSurface, tolerance: f64) -> bool {
-    let holds = |one: &WallSurface, other: &WallSurface| {
-        let mut places = probes(one).into_iter();
-        places.all(|place| lies_on(place, other, tolerance))
-    };
-    holds(one, other) && holds(other, one)
+    holds(one, other, tolerance) && holds(other, one, tolerance)
 }
 
 /// A unit vector across an axis.

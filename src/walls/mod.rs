@@ -15,7 +15,7 @@ mod tests;
 mod wall;
 
 pub use cylinder::Cylinder;
-pub use joints::with_joints;
+pub use joints::{sharers, with_joints};
 pub use opening::{Orifice, Slit};
 pub use parallelogram::Parallelogram;
 pub use plane::Plane;

@@ -78,6 +78,8 @@ pub struct Wall {
     pub name: WallName,
     /// Coefficient of friction, if it differs from the spheres' own.
     pub friction_coefficient: Option<f64>,
+    /// The point about which its torque is measured (m): one of its axis, if it has one.
+    pub centre: Vector,
     /// How it slides in itself. `None` at rest.
     pub motion: Option<SurfaceMotion>,
     /// Its middle along the periodic axes (m) along which it ends, in a space that it spans. It is
@@ -96,6 +98,7 @@ impl Wall {
             surface,
             name,
             friction_coefficient: None,
+            centre: Vector::ZERO,
             motion: None,
             middle: [None; 3],
             weight: 1.0,
@@ -152,6 +155,7 @@ impl Wall {
         };
         Some(Self {
             friction_coefficient: wall.friction_coefficient,
+            centre,
             motion: wall.moves().then_some(motion),
             weight_when_open: if wall.is_door { 0.0 } else { 1.0 },
             ..Self::new(surface, WallName::Listed(place))

@@ -86,6 +86,7 @@ fn columns_change_nothing_else() {
     let plain = run::run(&scene, &mut |_| ControlFlow::Continue(())).unwrap();
     let mut asking = scene.clone();
     asking.output.columns = FurtherColumn::ALL.to_vec();
+    asking.output.walls = true;
     let asked = run::run(&asking, &mut |_| ControlFlow::Continue(())).unwrap();
     assert_eq!(scene.identity(), asking.identity());
     assert_eq!(plain.snapshots, asked.snapshots);
@@ -97,13 +98,15 @@ fn columns_change_nothing_else() {
         assert_eq!(usual.values, same.values, "{}", usual.name);
     }
     let more = asked.observations.scalars().len() - plain.observations.scalars().len();
-    assert_eq!(more, FurtherColumn::ALL.len());
+    // Six of the floor, six of the cylinder.
+    assert_eq!(more, FurtherColumn::ALL.len() + 12);
 }
 
 /// The scene with all columns that it can have.
 fn asking(mut scene: Scene) -> Scene {
     let all = FurtherColumn::ALL.iter().copied();
     scene.output.columns = all.filter(|it| it.absent_in(&scene).is_none()).collect();
+    scene.output.walls = true;
     scene
 }
 
@@ -146,6 +149,7 @@ fn a_record_keeps_its_columns() {
     let mut scene = scene(MINDLIN, 4);
     scene.time.duration = 0.02;
     scene.output.columns = FurtherColumn::ALL.to_vec();
+    scene.output.walls = true;
     let record = run::run(&scene, &mut |_| ControlFlow::Continue(())).unwrap();
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("run.h5");

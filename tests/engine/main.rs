@@ -36,4 +36,5 @@ mod support;
 mod time_scales;
 mod time_step;
 mod verification;
+mod wall_forces;
 mod walls;

@@ -50,6 +50,13 @@ impl<'a> SceneNames<'a> {
         Some(found.of.unit())
     }
 
+    /// The unit of the column of that name of a wall.
+    fn of_wall(&self, name: &str) -> Option<&'static str> {
+        let mut columns = self.scene.wall_columns();
+        let found = columns.find(|column| column.name == name)?;
+        Some(found.unit)
+    }
+
     /// Names and units of the columns that its runs may have.
     fn columns(&self) -> impl Iterator<Item = (&'a str, &'a str)> {
         let program = self.scene.program.as_ref();
@@ -72,7 +79,8 @@ impl Names for SceneNames<'_> {
         }
         let own = self.columns().find(|column| column.0 == name);
         let unit = own.map(|column| column.1);
-        Unit::parse(unit.or_else(|| self.of_profile(name))?).ok()
+        let unit = unit.or_else(|| self.of_profile(name));
+        Unit::parse(unit.or_else(|| self.of_wall(name))?).ok()
     }
 
     fn key(&self, path: &str) -> Option<Unit> {
@@ -99,6 +107,9 @@ impl Names for SceneNames<'_> {
         let why = match further {
             Some(column) if column.is_usual_in(self.scene) => None,
             Some(column) => column.absent_in(self.scene),
+            None if !self.scene.output.walls && self.of_wall(name).is_some() => {
+                Some("forces on walls are recorded only with `output.walls = true`")
+            }
             None => Observations::absent_in(self.scene, name),
         };
         why.map(str::to_owned)
@@ -112,7 +123,9 @@ impl Names for SceneNames<'_> {
         let measures = measures.map(|measure| measure.name.to_owned());
         let profiles = self.scene.output.profiles.iter();
         let bins = profiles.flat_map(|profile| profile.columns());
-        let names = columns.chain(bins).chain(measures);
+        let walls = self.scene.wall_columns().map(|column| column.name);
+        let walls = walls.filter(|_| self.scene.output.walls);
+        let names = columns.chain(bins).chain(walls).chain(measures);
         names.chain(self.scene.numeric_keys()).collect()
     }
 }

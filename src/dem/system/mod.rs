@@ -36,7 +36,7 @@ use self::integrate::MotionBefore;
 use self::ledger::EnergyBooks;
 pub(in crate::dem) use self::ledger::LedgerWork;
 use self::rolling::RollingState;
-pub(in crate::dem) use self::seen::{Partner, SeenContact};
+pub(in crate::dem) use self::seen::{Partner, SeenContact, WallTouch};
 pub(in crate::dem) use self::state::EngineState;
 use self::wall_contacts::WallContacts;
 use super::guard::Limits;
@@ -67,6 +67,8 @@ pub(in crate::dem) trait Engine: Send {
     /// Shows all contacts of spheres that move, in a fixed order, with their forces if `forces`.
     /// This never changes the motion.
     fn see_contacts(&mut self, forces: bool, see: &mut dyn FnMut(SeenContact));
+    /// Whether each wall and joint acts on spheres: a door that has opened does not.
+    fn walls_that_act(&self) -> Vec<bool>;
     fn use_baseline_instructions(&mut self);
     /// Divides the work of a sorted scene among this number of threads. The engine must then run in
     /// a pool of them. Returns whether the work is divided.
@@ -401,5 +403,10 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
 
     fn see_contacts(&mut self, forces: bool, see: &mut dyn FnMut(SeenContact)) {
         self.see_contacts(forces, see);
+    }
+
+    fn walls_that_act(&self) -> Vec<bool> {
+        let walls = self.walls.iter();
+        walls.map(|it| it.wall.weight != 0.0).collect()
     }
 }

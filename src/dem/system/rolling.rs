@@ -138,6 +138,18 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         self.mark(StepPart::Rolling);
     }
 
+    /// The torque (N m) on a sphere at a wall with its place, by these laws and the present spring.
+    pub(super) fn rolling_at_wall(&self, laws: Laws<N, T>, wall: (&Wall, u32), i: u32) -> Vector {
+        let Some(rolling) = &self.rolling else {
+            return Vector::ZERO;
+        };
+        let (state, meeting) = meeting_at_wall(&laws, &self.particles, &[], wall, i);
+        let known = rolling.springs.get(&meeting.key).copied();
+        let touch = touch_of(&laws, &state, &meeting);
+        let [torque, _] = rolling.law.torque(&touch, known.unwrap_or_default());
+        torque * meeting.weight
+    }
+
     /// Energy (J) of the rolling spring of two spheres, at an overlap and effective radius (m).
     pub(super) fn rolling_energy(
         &self,
@@ -296,26 +308,8 @@ impl<'a, N: NormalLaw, T: TangentialLaw> Pass<'a, N, T> {
     }
 
     fn add_at_wall(&mut self, wall: &Wall, place: u32, i: u32) {
-        let spheres = Partners::all(self.particles, self.earlier);
-        let at_rest = ContactState::at_wall(&spheres, i);
-        let radius = at_rest.properties[0].radius;
-        let geometry = |position: Vector| {
-            let contact = wall.contact(position, radius);
-            self.laws.geometry_at_wall(&at_rest, contact, None)
-        };
-        let (state, _) = self.laws.meeting_at_wall(wall, &at_rest);
-        let meeting = Meeting {
-            key: [
-                RollingPartner::of(self.particles, i),
-                RollingPartner::Wall(place),
-            ],
-            spheres: (i, None),
-            weight: wall.weight,
-            effective_radius: radius,
-            now: geometry(state.offset),
-            earlier: (at_rest.earlier)
-                .map(|motion| geometry(self.laws.earlier_position(state.offset, motion.velocity))),
-        };
+        let (laws, particles) = (&self.laws, &*self.particles);
+        let (state, meeting) = meeting_at_wall(laws, particles, self.earlier, (wall, place), i);
         self.add(&state, &meeting);
     }
 
@@ -324,7 +318,7 @@ impl<'a, N: NormalLaw, T: TangentialLaw> Pass<'a, N, T> {
         if !meeting.now.touches {
             return;
         }
-        let touch = self.touch(state, meeting);
+        let touch = touch_of(&self.laws, state, meeting);
         let [torque, moment] = self.law.torque(&touch, known.unwrap_or_default());
         self.renewed.push((meeting.key, moment));
         let torque = torque * meeting.weight;
@@ -335,61 +329,96 @@ impl<'a, N: NormalLaw, T: TangentialLaw> Pass<'a, N, T> {
         }
     }
 
-    /// The contact in the form that rolling laws take.
-    ///
-    /// Its rate is the difference of the spins, without the part along the normal. A common
-    /// rotation of both partners cancels, whatever their radii. R_eff times this rate is the speed
-    /// at which the contact moves along both surfaces if they do not slide. With opposite torques,
-    /// which conserve angular momentum, the power is the torque times this rate.
-    fn touch(&self, state: &ContactState, meeting: &Meeting) -> RollingTouch {
-        let Meeting {
-            effective_radius,
-            now,
-            earlier,
-            ..
-        } = meeting;
-        let rate = |spin: [Vector; 2], geometry: &ContactGeometry| {
-            (spin[0] - spin[1]).perpendicular_to(geometry.normal)
-        };
-        let stiffness = |overlap: f64| {
-            let normal = &self.laws.normal;
-            normal.stiffness(overlap, *effective_radius)
-        };
-        let present = (rate(state.spin, now), stiffness(now.overlap));
-        let (loading_rate, loading_stiffness) = match (earlier, &state.earlier) {
-            (Some(geometry), Some(motion)) => {
-                (rate(motion.spin, geometry), stiffness(geometry.overlap))
-            }
-            _ => present,
-        };
-        let approach = -state.velocity.dot(now.normal);
-        let force = self.laws.normal.force(
-            now.overlap,
-            approach,
-            now.contact_radius,
-            now.effective_mass,
-        );
-        let inverse = state
-            .properties
-            .map(|it| inverse_rolling_inertia(it.inertia, it.inverse_mass, it.radius));
-        RollingTouch {
-            normal: now.normal,
-            normal_force: force.max(0.0),
-            effective_radius: *effective_radius,
-            stiffness: present.1,
-            inertia: inverse_or_zero(inverse[0] + inverse[1]),
-            rate: present.0,
-            loading_rate,
-            loading_stiffness,
-            loading_time: self.laws.loading.duration,
-        }
-    }
-
     /// Adds a torque (N m) to a sphere and to the books.
     fn turn(&mut self, i: u32, torque: Vector) {
         self.particles.torque[i as usize] += torque;
         if let Some(books) = &mut self.books {
             books.add(i, Vector::ZERO, Vector::ZERO, torque);
         }
+    }
+}
+
+/// A sphere and a wall with its place: their motion relative to each other, and their geometry.
+fn meeting_at_wall<N: NormalLaw, T: TangentialLaw>(
+    laws: &Laws<N, T>,
+    particles: &Particles,
+    earlier: &[EarlierRows],
+    (wall, place): (&Wall, u32),
+    i: u32,
+) -> (ContactState, Meeting) {
+    let spheres = Partners::all(particles, earlier);
+    let at_rest = ContactState::at_wall(&spheres, i);
+    let radius = at_rest.properties[0].radius;
+    let geometry = |position: Vector| {
+        let contact = wall.contact(position, radius);
+        laws.geometry_at_wall(&at_rest, contact, None)
+    };
+    let (state, _) = laws.meeting_at_wall(wall, &at_rest);
+    let meeting = Meeting {
+        key: [
+            RollingPartner::of(particles, i),
+            RollingPartner::Wall(place),
+        ],
+        spheres: (i, None),
+        weight: wall.weight,
+        effective_radius: radius,
+        now: geometry(state.offset),
+        earlier: (at_rest.earlier)
+            .map(|motion| geometry(laws.earlier_position(state.offset, motion.velocity))),
+    };
+    (state, meeting)
+}
+
+/// The contact in the form that rolling laws take.
+///
+/// Its rate is the difference of the spins, without the part along the normal. A common
+/// rotation of both partners cancels, whatever their radii. R_eff times this rate is the speed
+/// at which the contact moves along both surfaces if they do not slide. With opposite torques,
+/// which conserve angular momentum, the power is the torque times this rate.
+fn touch_of<N: NormalLaw, T: TangentialLaw>(
+    laws: &Laws<N, T>,
+    state: &ContactState,
+    meeting: &Meeting,
+) -> RollingTouch {
+    let Meeting {
+        effective_radius,
+        now,
+        earlier,
+        ..
+    } = meeting;
+    let rate = |spin: [Vector; 2], geometry: &ContactGeometry| {
+        (spin[0] - spin[1]).perpendicular_to(geometry.normal)
+    };
+    let stiffness = |overlap: f64| {
+        let normal = &laws.normal;
+        normal.stiffness(overlap, *effective_radius)
+    };
+    let present = (rate(state.spin, now), stiffness(now.overlap));
+    let (loading_rate, loading_stiffness) = match (earlier, &state.earlier) {
+        (Some(geometry), Some(motion)) => {
+            (rate(motion.spin, geometry), stiffness(geometry.overlap))
+        }
+        _ => present,
+    };
+    let approach = -state.velocity.dot(now.normal);
+    let force = laws.normal.force(
+        now.overlap,
+        approach,
+        now.contact_radius,
+        now.effective_mass,
+    );
+    let inverse = state
+        .properties
+        .map(|it| inverse_rolling_inertia(it.inertia, it.inverse_mass, it.radius));
+    RollingTouch {
+        normal: now.normal,
+        normal_force: force.max(0.0),
+        effective_radius: *effective_radius,
+        stiffness: present.1,
+        inertia: inverse_or_zero(inverse[0] + inverse[1]),
+        rate: present.0,
+        loading_rate,
+        loading_stiffness,
+        loading_time: laws.loading.duration,
     }
 }

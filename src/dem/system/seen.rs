@@ -27,14 +27,25 @@ pub(in crate::dem) struct SeenContact {
 }
 
 /// What a sphere touches.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug)]
 pub(in crate::dem) enum Partner {
     /// A sphere that moves, by its index.
     Sphere(usize),
     /// A fixed sphere.
     Fixed,
-    /// A wall or the floor.
-    Wall,
+    /// A wall or the floor, or a place where walls join.
+    Wall(WallTouch),
+}
+
+/// Where a sphere touches a wall.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::dem) struct WallTouch {
+    /// The place of the wall among the walls and their joints.
+    pub(in crate::dem) wall: usize,
+    /// The point of the wall (m), in the box of a periodic space.
+    pub(in crate::dem) point: Vector,
+    /// Torque of rolling resistance on the sphere (N m), if forces are asked for.
+    pub(in crate::dem) rolling: Vector,
 }
 
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
@@ -109,7 +120,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     fn see_walls(&self, laws: Option<Laws<N, T>>, see: &mut dyn FnMut(SeenContact)) {
         let particles = &self.particles;
         let spheres = Partners::all(particles, &[]);
-        for wall in &self.walls {
+        for (place, wall) in self.walls.iter().enumerate() {
             for (near, history) in wall.near.iter().zip(&wall.histories) {
                 let sphere = near.i as usize;
                 let (centre, radius) = (particles.position[sphere], particles.radius[sphere]);
@@ -121,11 +132,19 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                     let state = ContactState::at_wall(&spheres, near.i);
                     laws.wall_force(&wall.wall, &state, *history).force * wall.wall.weight
                 });
+                let rolling = laws.map_or(Vector::ZERO, |laws| {
+                    self.rolling_at_wall(laws, (&wall.wall, place as u32), near.i)
+                });
+                let branch = contact.normal * (radius - contact.overlap);
                 see(SeenContact {
                     sphere,
-                    partner: Partner::Wall,
+                    partner: Partner::Wall(WallTouch {
+                        wall: place,
+                        point: particles.domain.wrapped(centre - branch),
+                        rolling,
+                    }),
                     height: centre.z,
-                    branch: contact.normal * (radius - contact.overlap),
+                    branch,
                     force,
                     weight: wall.wall.weight,
                 });

@@ -208,6 +208,16 @@ impl SceneWall {
             .filter_map(|(key, is_there)| is_there.then_some(key))
     }
 
+    /// What its torque is about, in words.
+    pub(crate) fn torque_centre(&self) -> &'static str {
+        match self.shapes().next() {
+            Some("plane") => "its `point`",
+            Some("plate") => "its `corner`",
+            Some("disc") => "its `centre`",
+            _ => "its `base`",
+        }
+    }
+
     /// The same wall without its name, which does not change the motion.
     pub(crate) fn without_name(&self) -> Self {
         Self {

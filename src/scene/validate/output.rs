@@ -71,6 +71,12 @@ impl Scene {
             }
         }
         self.check_profiles(problems);
+        if self.output.walls
+            && let Some(why) = self.without_wall_columns()
+        {
+            let message = format!("this scene has no forces on walls: {why}");
+            problems.push(Problem::new("output.walls", message).help("remove it"));
+        }
         if let Some(layer) = &self.output.layer
             && layer.z_max <= layer.z_min
         {

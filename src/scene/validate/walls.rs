@@ -41,7 +41,8 @@ impl Scene {
         }
         let before = self.dem.walls[..place].iter().enumerate();
         let mut names = before.map(|(place, wall)| wall.called(place));
-        if names.any(|it| it == name) {
+        let mut of_tank = self.tank.iter().flat_map(|tank| tank.wall_names());
+        if names.any(|it| it == name) || of_tank.any(|it| it == name) {
             let message = format!("another wall is called {name:?} already");
             problems.push(Problem::new("name", message).help("give each wall its own name"));
         }

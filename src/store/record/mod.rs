@@ -155,6 +155,7 @@ pub fn motion_digest(record: &RunRecord) -> Result<String, String> {
                 trajectory: false,
                 columns: Vec::new(),
                 profiles: Vec::new(),
+                walls: false,
                 layer: None,
                 ..record.scene.output.clone()
             },

@@ -194,3 +194,60 @@ fn profiles_are_columns_of_their_bins() {
             .complains(message);
     }
 }
+
+/// Forces on walls are columns by the names of walls. A sweep that asks for them, or renames a wall,
+/// makes its runs again, and no others.
+#[test]
+fn forces_on_walls_are_columns_that_rules_read() {
+    let place = Workplace::new();
+    let wall = "[[scene.wall]]\nname = \"lid\"\ndisc = { centre = [0, 0, 0.2], radius = 0.02 }\n\
+                [scene.output]\nwalls = true\n";
+    let rule = "[[measure]]\nname = \"weight\"\nvalue = \"mean(floor_force_z) / 1[N]\"\n\
+                [[measure]]\nname = \"lid_weight\"\nvalue = \"max(lid_force_z)\"\n";
+    let asking = text(rule) + wall;
+    place.write("plain.toml", &(text("") + &wall.replace("true", "false")));
+    place.write("tiny.toml", &asking);
+    for name in ["plain", "tiny"] {
+        place
+            .phase(&["sweep", &format!("{name}.toml"), "--out", "results/tiny"])
+            .code(0);
+    }
+    let rows = cells(&place, "results/tiny/labels.csv", &["weight", "lid_weight"]);
+    for row in &rows {
+        // Eight spheres, of which some fall from time to time.
+        let weight: f64 = row[0].parse().unwrap();
+        assert!((weight / -0.0789 - 1.0).abs() < 0.1, "{weight}");
+        assert_eq!(row[1], "0.0");
+    }
+    let renamed = asking
+        .replace("\"lid\"", "\"cover\"")
+        .replace("lid_force_z", "cover_force_z");
+    place.write("tiny.toml", &renamed);
+    let sweep = ["sweep", "tiny.toml", "--out", "results/tiny"];
+    place.phase(&sweep).code(0).says("6 runs labelled");
+    place
+        .phase(&sweep)
+        .code(0)
+        .complains("6 of 6 jobs are done already");
+
+    for (good, bad, message) in [
+        (
+            "walls = true",
+            "walls = false",
+            "only with `output.walls = true`",
+        ),
+        ("lid_force_z", "roof_force_z", "neither a column"),
+        (
+            "floor_force_z) / 1[N]",
+            "floor_force_z) + 1[m]",
+            "adds m to N",
+        ),
+    ] {
+        assert!(asking.contains(good));
+        place.write("bad.toml", &asking.replace(good, bad));
+        place
+            .phase(&["check", "bad.toml"])
+            .code(2)
+            .complains(message);
+    }
+}
