@@ -324,8 +324,13 @@ impl<'a, N: NormalLaw, T: TangentialLaw> Pass<'a, N, T> {
         let torque = torque * meeting.weight;
         let (one, other) = meeting.spheres;
         self.turn(one, torque);
-        if let Some(other) = other {
-            self.turn(other, -torque);
+        match (other, &mut self.books) {
+            (Some(other), _) => self.turn(other, -torque),
+            // A wall that turns does the work of its reaction.
+            (None, Some(books)) => {
+                books.add_power_of_wall(one, [0.0, torque.dot(state.spin[1])]);
+            }
+            (None, None) => {}
         }
     }
 
