@@ -54,7 +54,10 @@ impl Scene {
         };
         problems.extend(edits.contradictions(&change.paths()));
         if let Err(path) = change.apply(&mut tree) {
-            problems.push(Problem::new("", format!("--set {path}: not in a table")));
+            problems.push(Problem::new(
+                "",
+                format!("--set {path}: not in a table, or in no entry of a list"),
+            ));
         }
         if !problems.is_empty() {
             return Err(refuse(problems));
@@ -75,6 +78,7 @@ impl Scene {
 /// A setting of a command line as a file of one line.
 fn setting(text: &str) -> Result<Document, LoadError> {
     let path = Path::new("--set");
+    let text = &quoted_entries(text);
     let parsed = Document::parse(text.to_owned(), path);
     match text.split_once('=') {
         // Texts need no quotes, which the shell would remove.
@@ -84,6 +88,20 @@ fn setting(text: &str) -> Result<Document, LoadError> {
         }
         _ => parsed,
     }
+}
+
+/// The setting with quotes about entries of lists, such as `wall[0]` in `wall[0].is_door=true`, which
+/// are no names of TOML.
+fn quoted_entries(text: &str) -> String {
+    let Some((key, value)) = text.split_once('=').filter(|(key, _)| !key.contains('"')) else {
+        return text.to_owned();
+    };
+    let quoted = |part: &str| match part.trim() {
+        part if part.ends_with(']') => format!("\"{part}\""),
+        part => part.to_owned(),
+    };
+    let parts: Vec<String> = key.split('.').map(quoted).collect();
+    format!("{}={value}", parts.join("."))
 }
 
 /// What a setting sets: the key before its equals sign, or all tables of one with several lines.

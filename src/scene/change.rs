@@ -136,14 +136,21 @@ fn collect(path: &str, value: &Value, paths: &mut Vec<String>) {
     }
 }
 
-/// The place of a key. Missing tables are created.
+/// The place of a key, such as `time.dt` or `wall[0].friction_coefficient`. Missing tables are
+/// created, missing entries of lists are not.
 fn place<'a>(tree: &'a mut Value, path: &str) -> Option<&'a mut Value> {
     let mut place = tree;
     for part in path.split('.') {
         if place.is_null() {
             *place = Value::Object(Map::new());
         }
-        place = place.as_object_mut()?.entry(part).or_insert(Value::Null);
+        let (name, index) = part.split_once('[').map_or((part, None), |(name, index)| {
+            (name, index.strip_suffix(']'))
+        });
+        place = place.as_object_mut()?.entry(name).or_insert(Value::Null);
+        if let Some(index) = index {
+            place = place.get_mut(index.parse::<usize>().ok()?)?;
+        }
     }
     Some(place)
 }
@@ -170,6 +177,20 @@ mod tests {
         });
         change.apply(&mut tree).unwrap();
         tree
+    }
+
+    #[test]
+    fn keys_of_entries_of_lists_are_set() {
+        let change = |path: &str| Change::of_key(path, json!(2));
+        let mut tree = json!({"wall": [{"plane": {"tilt": 0}}, {"friction_coefficient": 1}]});
+        for path in ["wall[0].plane.tilt", "wall[1].friction_coefficient"] {
+            change(path).apply(&mut tree).unwrap();
+        }
+        let expected = json!({"wall": [{"plane": {"tilt": 2}}, {"friction_coefficient": 2}]});
+        assert_eq!(tree, expected);
+        for path in ["wall[2].is_door", "wall[x].is_door", "tank[0].radius"] {
+            assert_eq!(change(path).apply(&mut tree), Err(path.to_owned()));
+        }
     }
 
     #[test]

@@ -313,3 +313,22 @@ fn options_that_contradict_each_other_are_refused() {
     // Other keys of the same table do not.
     run(&["--ledger", "--seed", "3", set, "output.trajectory=true"]).code(0);
 }
+
+/// Keys of walls are set as they are named in messages and axes.
+#[test]
+fn entries_of_lists_are_set() {
+    let place = Workplace::new();
+    let wall = "[[wall]]\ndisc = { centre = [0.0, 0.0, 0.5], radius = 0.02 }\n";
+    place.write("scene.toml", &(scene_file() + wall));
+    let run = |set: &str| place.phase(&["run", "scene.toml", "--set", set, "--out", "run.h5"]);
+    run("wall[0].disc.radius=0.01").code(0);
+    let record = phase::store::read_record(&place.path("run.h5")).unwrap();
+    assert_eq!(
+        record.scene.dem.walls[0].disc.as_ref().unwrap().radius,
+        0.01
+    );
+    run("wall[0].disc.radius=-1").code(2).complains("--set");
+    run("wall[1].disc.radius=0.01")
+        .code(2)
+        .complains("--set wall[1].disc.radius: not in a table, or in no entry of a list");
+}
