@@ -6,7 +6,7 @@
 use super::{Rgb, Stage};
 use crate::observe::Snapshot;
 use crate::record::{Milestone, MilestoneKind};
-use crate::scene::{FixedSphere, FixedSpheres, Geometry, Scene, Shape};
+use crate::scene::{FixedSphere, FixedSpheres, Scene, Shape};
 use crate::walls::Wall;
 use std::fmt::Write;
 
@@ -43,10 +43,9 @@ impl Scenery {
         let opening = milestones
             .iter()
             .find(|it| it.kind == MilestoneKind::DoorOpened);
-        let fixed = scene.dem.geometry.as_ref().map(Geometry::spheres);
         let tank = scene.tank.as_ref();
         Self {
-            fixed: fixed.unwrap_or_default(),
+            fixed: scene.fixed_in_box(),
             opened: opening.map(|opening| opening.time),
             tank: [
                 tank.and_then(|tank| tank.reach()[0]),

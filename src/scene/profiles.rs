@@ -117,20 +117,19 @@ impl ColumnProfile {
         [bin, bin + 1].map(|edge| self.from + edge as f64 * width)
     }
 
-    /// Whether its bins lie along an axis that is periodic.
+    /// Whether its bins lie along an axis that is periodic, or distances from the axis of z count.
     fn crosses_period(&self, scene: &Scene) -> bool {
         let [x, y, z] = scene.domain().periods();
-        match self.over {
-            ProfileAxis::Height => z.is_some(),
-            ProfileAxis::Radius => x.or(y).is_some(),
-        }
+        let is_about_axis =
+            self.over == ProfileAxis::Radius || self.of == ProfiledQuantity::AngularVelocity;
+        (is_about_axis && x.or(y).is_some()) || (self.over == ProfileAxis::Height && z.is_some())
     }
 
     /// Why runs of this scene cannot have it, if they cannot.
     pub(crate) fn absent_in(&self, scene: &Scene) -> Option<&'static str> {
         match self.of {
             _ if self.crosses_period(scene) => {
-                Some("its bins lie across an axis that is periodic, where places have no limits")
+                Some("it needs places along an axis that is periodic, where they have no limits")
             }
             ProfiledQuantity::Count => None,
             ProfiledQuantity::PackingFraction if self.over == ProfileAxis::Radius => {

@@ -48,7 +48,10 @@ impl Scene {
             return;
         }
         let height_for = |fraction: f64| volume / (fraction * area);
-        let fraction_up_to = |z_max: f64| height_for(1.0) / (z_max - z_min + 2.0 * radii.mean());
+        // A box that is periodic along z has no more room than its period.
+        let period = self.domain().periods()[2].unwrap_or(f64::INFINITY);
+        let height_up_to = |z_max: f64| (z_max - z_min + 2.0 * radii.mean()).min(period);
+        let fraction_up_to = |z_max: f64| height_for(1.0) / height_up_to(z_max);
         // Spheres that are not small against the tank find less room: only a trial can tell.
         let finds_room = |z_max: f64| match fraction_up_to(z_max) {
             fraction if fraction > PACKING_LIMIT => false,
@@ -84,6 +87,7 @@ impl Scene {
             });
         let help = match room {
             Some(z_max) => format!("use `z_max = {z_max}` or more, or {few}"),
+            None if period.is_finite() => format!("use a longer `periodic.z`, or {few}"),
             None => format!("use a higher `z_max`, or {few}"),
         };
         problems.push(Problem::new("start.z_max", message).help(help));

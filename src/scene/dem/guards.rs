@@ -18,7 +18,7 @@ pub struct Guards {
     )]
     pub displacement: f64,
     /// Largest |x| and |y| of a centre (m). Default, if there are walls all around: twice the
-    /// tank's radius, or the larger of its width and depth.
+    /// tank's radius, or the larger of its width and depth. Not along a period.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(transform = quantity("x_{max}", "m", "largest |x| and |y|").above(0.0))]
     pub horizontal: Option<f64>,

@@ -1,7 +1,9 @@
 //! Periodic sides.
 
+use super::{FixedSpheres, Geometry};
 use crate::document::quantities::length;
 use crate::particles::Domain;
+use crate::particles::vector::Vector;
 use crate::scene::Scene;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -13,8 +15,8 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Periodic {
-    /// Period along x (m): at least twice the diameter of the largest sphere, as a pair may meet
-    /// across one side only. Default: open.
+    /// Period along x (m): at least twice the sum of the two largest radii that may meet, fixed
+    /// spheres included, as a pair may meet across one side only. Default: open.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(transform = length("L_x", "period along x"))]
     pub x: Option<f64>,
@@ -40,6 +42,20 @@ impl Scene {
     pub fn domain(&self) -> Domain {
         let periodic = self.dem.periodic.unwrap_or_default();
         Domain::new(periodic.periods())
+    }
+
+    /// Its fixed spheres, at their images in the box of a periodic space.
+    pub fn fixed_in_box(&self) -> FixedSpheres {
+        let domain = self.domain();
+        let mut fixed = self.dem.geometry.as_ref().map(Geometry::spheres);
+        for sphere in fixed
+            .iter_mut()
+            .flat_map(|it| it.walls.iter_mut().chain(&mut it.door))
+        {
+            let Vector { x, y, z, .. } = domain.wrapped(sphere.position.into());
+            sphere.position = [x, y, z];
+        }
+        fixed.unwrap_or_default()
     }
 
     /// Cross-section (m2) of the tank or of the periodic box, if it is closed.

@@ -22,6 +22,7 @@ impl Scene {
             return;
         }
         self.check_beside_periodic(problems);
+        self.check_keys_across(periods, problems);
         for (axis, period) in periods.into_iter().enumerate() {
             if let Some(period) = period {
                 self.check_period(axis, period, problems);
@@ -32,11 +33,15 @@ impl Scene {
     }
 
     fn check_period(&self, axis: usize, period: f64, problems: &mut Vec<Problem>) {
-        let least = 4.0 * self.radius_range().1;
+        let largest = self.radius_range().1;
+        let fixed = self.fixed_in_box();
+        let fixed = fixed.walls.iter().chain(&fixed.door);
+        let partner = fixed.fold(largest, |most, it| most.max(it.radius));
+        let least = 2.0 * (largest + partner);
         if period < least {
             let message = format!(
-                "a period of {} m is less than two diameters of the largest sphere, {} m: a pair \
-                 would meet across both sides",
+                "a period of {} m is less than {} m, twice the distance at which the largest \
+                 spheres touch: a pair would meet across both sides",
                 number(period),
                 number(least)
             );
@@ -86,7 +91,11 @@ impl Scene {
         let along = AXES[axis];
         let effects = &self.dem.effects;
         let tables = [
-            ("swirl", axis < 2 && effects.swirl.is_some()),
+            (
+                "swirl",
+                // Still air is the same everywhere.
+                axis < 2 && effects.swirl.as_ref().is_some_and(|it| it.omega != 0.0),
+            ),
             ("updraught", effects.updraught.is_some()),
         ];
         for (table, _) in tables.into_iter().filter(|(_, is_refused)| *is_refused) {
@@ -94,7 +103,7 @@ impl Scene {
             let help = format!("remove [{table}], or remove `periodic.{along}`");
             problems.push(Problem::new(table, message).help(help));
         }
-        if axis == 2 && self.outlet_height().is_some() && self.dem.outlet.is_some() {
+        if axis == 2 && self.dem.outlet.is_some() {
             let message = "spheres leave below a height, but z is periodic";
             let help = "remove [outlet], or remove `periodic.z`";
             problems.push(Problem::new("outlet", message).help(help));
@@ -102,6 +111,22 @@ impl Scene {
         if axis == 1 && self.spheres.shape == Shape::Disc {
             let message = "discs lie in the plane y = 0, and nothing is across it";
             problems.push(Problem::new("periodic.y", message).help("remove it"));
+        }
+    }
+
+    /// Refuses keys that mean nothing along periodic axes.
+    fn check_keys_across(&self, [x, y, z]: [Option<f64>; 3], problems: &mut Vec<Problem>) {
+        let guards = &self.dem.guards;
+        let aside = x.is_some() && y.is_some();
+        let layer = self.output.layer.is_some();
+        let keys = [
+            ("guards.horizontal", aside && guards.horizontal.is_some()),
+            ("guards.vertical", z.is_some() && guards.vertical.is_some()),
+            ("output.layer", z.is_some() && layer),
+        ];
+        for (key, _) in keys.into_iter().filter(|(_, is_given)| *is_given) {
+            let message = format!("`{key}` means nothing along axes that are periodic");
+            problems.push(Problem::new(key, message).help("remove it"));
         }
     }
 

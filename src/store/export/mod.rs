@@ -19,7 +19,7 @@ pub use xyz::{write_fixed_xyz, write_xyz};
 use super::StoreError;
 use crate::observe::Snapshot;
 use crate::record::RunRecord;
-use crate::scene::{FixedSpheres, Geometry};
+use crate::scene::FixedSpheres;
 use std::fs;
 use std::path::Path;
 
@@ -37,8 +37,7 @@ fn present(record: &RunRecord, state: &Snapshot) -> Vec<usize> {
 
 /// The fixed spheres of a scene: walls and door.
 fn fixed(record: &RunRecord) -> FixedSpheres {
-    let geometry = record.scene.dem.geometry.as_ref();
-    geometry.map(Geometry::spheres).unwrap_or_default()
+    record.scene.fixed_in_box()
 }
 
 fn make_folder(path: &Path) -> Result<(), StoreError> {

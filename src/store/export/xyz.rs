@@ -14,7 +14,7 @@
 use super::{bounds, fixed, present, rotate};
 use crate::observe::Snapshot;
 use crate::record::RunRecord;
-use crate::scene::FixedSphere;
+use crate::scene::{FixedSphere, Scene};
 use crate::store::StoreError;
 use crate::store::atomic::write_atomic_with;
 use std::io::{self, Write};
@@ -33,11 +33,10 @@ pub fn write_xyz(record: &RunRecord, states: &[&Snapshot], path: &Path) -> Resul
             (low[axis], size[axis]) = (-0.5 * period, period);
         }
     }
-    let [a, b, c] = periods.map(|period| if period.is_some() { 'T' } else { 'F' });
     let spins = rotate(states);
     let flows = record.scene.has_flow();
     let header = format!(
-        "Lattice=\"{:?} 0 0 0 {:?} 0 0 0 {:?}\" Origin=\"{:?} {:?} {:?}\" pbc=\"{a} {b} {c}\" \
+        "Lattice=\"{:?} 0 0 0 {:?} 0 0 0 {:?}\" Origin=\"{:?} {:?} {:?}\" pbc=\"{}\" \
          Properties=species:S:1:pos:R:3:radius:R:1:mass:R:1:velo:R:3{}{}",
         size[0],
         size[1],
@@ -45,6 +44,7 @@ pub fn write_xyz(record: &RunRecord, states: &[&Snapshot], path: &Path) -> Resul
         low[0],
         low[1],
         low[2],
+        periodic_axes(&record.scene),
         if spins { ":omega:R:3" } else { "" },
         if flows { ":id:I:1" } else { "" }
     );
@@ -62,6 +62,13 @@ pub fn write_xyz(record: &RunRecord, states: &[&Snapshot], path: &Path) -> Resul
         }
         Ok(())
     })
+}
+
+/// Which axes are periodic, as the format says it.
+fn periodic_axes(scene: &Scene) -> String {
+    let axes = scene.domain().periods();
+    axes.map(|period| if period.is_some() { "T" } else { "F" })
+        .join(" ")
 }
 
 fn write_sphere(
@@ -96,7 +103,8 @@ pub fn write_fixed_xyz(record: &RunRecord, path: &Path) -> Result<(), StoreError
         let count = fixed.walls.len() + fixed.door.len();
         writeln!(
             file,
-            "{count}\nProperties=species:S:1:pos:R:3:radius:R:1:door:I:1 pbc=\"F F F\""
+            "{count}\nProperties=species:S:1:pos:R:3:radius:R:1:door:I:1 pbc=\"{}\"",
+            periodic_axes(&record.scene)
         )?;
         for (door, spheres) in [(0, &fixed.walls), (1, &fixed.door)] {
             for FixedSphere { position, radius } in spheres {
