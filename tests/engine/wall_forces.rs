@@ -225,12 +225,12 @@ fn the_forces_on_all_walls_balance_the_momentum() {
 /// only damping and friction were booked at walls.
 #[test]
 fn the_torque_on_a_drum_is_the_work_of_its_walls() {
-    for rolling in ["", "rolling = { coefficient = 0.3, damping = 0.3 }"] {
-        check_work_of_drum(rolling);
-    }
+    check_work_of_drum("", 5e-3);
+    // Springs of rolling that a frame sees are a step old.
+    check_work_of_drum("rolling = { coefficient = 0.3, damping = 0.3 }", 1e-2);
 }
 
-fn check_work_of_drum(rolling: &str) {
+fn check_work_of_drum(rolling: &str, tolerance: f64) {
     let text = "wall = [
             { name = 'drum', cylinder = { base = [0, -0.012, 0], axis = [0, 1, 0], radius = 0.04, \
               length = 0.024 }, angular_velocity = 6.0 },
@@ -262,7 +262,7 @@ fn check_work_of_drum(rolling: &str) {
     let expected = last(&record.observations.work_of_walls);
     assert!(expected > 0.01 * 24.0 * WEIGHT * 0.04, "{expected}");
     assert!(
-        (work - expected).abs() < 5e-3 * expected,
+        (work - expected).abs() < tolerance * expected,
         "{work} {expected} {rolling}"
     );
     // The end that rests is rubbed by spheres, but does no work.
