@@ -6,8 +6,8 @@ use crate::particles::vector::Vector;
 use crate::scene::Scene;
 use crate::walls::{Wall, sharers, with_joints};
 
-/// Sums over the contacts with each wall. A place where walls join belongs to them in equal parts, so
-/// that all forces are counted.
+/// Sums over the contacts with each wall. A place where walls join belongs to them in equal parts,
+/// so that all forces are counted.
 pub(super) struct WallLoads {
     /// The walls of the scene, without joints.
     walls: Vec<WallLoad>,

@@ -1,7 +1,7 @@
 //! The space in which spheres move: open, or periodic along some axes.
 //!
-//! Positions are never wrapped: a sphere that crosses a side goes on beyond it, so that its path and
-//! its potential energy stay continuous. A pair meets by its nearest images (the minimum image
+//! Positions are never wrapped: a sphere that crosses a side goes on beyond it, so that its path
+//! and its potential energy stay continuous. A pair meets by its nearest images (the minimum image
 //! convention; Allen and Tildesley, Computer Simulation of Liquids, 1987, section 1.5.2).
 
 use super::block::{ROWS, VectorColumns};

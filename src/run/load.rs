@@ -90,8 +90,8 @@ fn setting(text: &str) -> Result<Document, LoadError> {
     }
 }
 
-/// The setting with quotes about entries of lists, such as `wall[0]` in `wall[0].is_door=true`, which
-/// are no names of TOML.
+/// The setting with quotes about entries of lists, such as `wall[0]` in `wall[0].is_door=true`,
+/// which are no names of TOML.
 fn quoted_entries(text: &str) -> String {
     let Some((key, value)) = text.split_once('=').filter(|(key, _)| !key.contains('"')) else {
         return text.to_owned();

@@ -29,8 +29,8 @@ pub struct Output {
     /// Profiles over height or radius, whose bins are further columns.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub profiles: Vec<ColumnProfile>,
-    /// The force and the torque of the spheres on each wall of the scene, as further columns such as
-    /// `floor_force_z` and `drum_torque_y`.
+    /// The force and the torque of the spheres on each wall of the scene, as further columns such
+    /// as `floor_force_z` and `drum_torque_y`.
     #[serde(skip_serializing_if = "is_default")]
     pub walls: bool,
     /// The layer in which columns such as `pressure` are measured. Absent: from the floor to twice

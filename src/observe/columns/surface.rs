@@ -13,8 +13,8 @@ const SIDE: f64 = 2.0;
 const LINE: f64 = 1e-9;
 
 /// Angle (rad) between the horizontal and the plane of least squares through the highest centre
-/// over each square of two diameters. If the squares form a line, the plane is level across it. In a
-/// periodic space it goes through the images in the box.
+/// over each square of two diameters. If the squares form a line, the plane is level across it. In
+/// a periodic space it goes through the images in the box.
 pub(super) fn angle(frame: &dyn Frame, diameter: f64, domain: Domain) -> f64 {
     let side = SIDE * diameter;
     let mut highest: BTreeMap<[i64; 2], [f64; 3]> = BTreeMap::new();

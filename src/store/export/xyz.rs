@@ -8,8 +8,9 @@
 //!
 //! OVITO makes Radius, Mass, Velocity and Angular Velocity of `radius`, `mass`, `velo` and `omega`.
 //! The lattice is the box that holds all spheres at all times, and the period along an axis that is
-//! periodic. All numbers are in SI units, with as many digits as it takes to read back the same bits. Where spheres come and
-//! go, a block holds those that are in, and `id` is the index of each, from 0.
+//! periodic. All numbers are in SI units, with as many digits as it takes to read back the same
+//! bits. Where spheres come and go, a block holds those that are in, and `id` is the index of each,
+//! from 0.
 
 use super::{bounds, fixed, present, rotate};
 use crate::observe::Snapshot;
