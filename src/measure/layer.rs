@@ -152,6 +152,7 @@ mod tests {
         bottom: 1.0,
         top: 3.0,
         area: 2.0,
+        period: None,
     };
 
     /// Rows: height, radius, volume over pi.
