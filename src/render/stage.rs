@@ -55,12 +55,17 @@ impl Stage {
         stage.with_lines(lines).with_periods(scene.domain())
     }
 
-    /// The stage, extended to the periodic box along the axes that have a period.
+    /// The stage, extended to the periodic box along the axes that have a period. An empty stage
+    /// takes its extent from the spheres.
     fn with_periods(mut self, domain: Domain) -> Self {
+        if self.is_empty() {
+            return self;
+        }
         for (axis, period) in domain.periods().into_iter().enumerate() {
-            let half = period.unwrap_or(0.0) * 0.5;
-            self.seen[0][axis] = self.seen[0][axis].min(-half);
-            self.seen[1][axis] = self.seen[1][axis].max(half);
+            if let Some(half) = period.map(|period| 0.5 * period) {
+                self.seen[0][axis] = self.seen[0][axis].min(-half);
+                self.seen[1][axis] = self.seen[1][axis].max(half);
+            }
         }
         self
     }
