@@ -17,11 +17,29 @@ RADIUS, DENSITY, YOUNG, POISSON, DISSIPATION, MU, DT = 0.004, 1e4, 2e5 * math.sq
 MASS = 4 / 3 * math.pi * RADIUS**3 * DENSITY
 
 
+def states(table):
+    """The states of a table of spheres that was exported from a record, as lists of rows by column."""
+    rows = csv.DictReader(open(table))
+    return (list(state) for _, state in itertools.groupby(rows, lambda row: row["time"]))
+
+
 def last_rows(folder):
     """The spheres of the last state of a record that was exported to CSV files there, as rows by column."""
     tables = sorted(folder.glob("*.csv"))
-    rows = csv.DictReader(open([path for path in tables if "observ" not in path.name][-1]))
-    return deque((list(state) for _, state in itertools.groupby(rows, lambda row: row["time"])), maxlen=1).pop()
+    return deque(states([path for path in tables if "observ" not in path.name][-1]), maxlen=1).pop()
+
+
+def write_lammps(path, spheres, radius, density, box, fixed=()):
+    """A data file of LAMMPS: spheres of type 1 with all their motion, if it is given, and fixed ones of type 2."""
+    sides = "".join(f"{low} {high} {axis}lo {axis}hi\n" for axis, (low, high) in zip("xyz", box))
+    numbered = list(enumerate([*((1, sphere) for sphere in spheres), *((2, sphere) for sphere in fixed)], 1))
+    text = f"spheres\n\n{len(numbered)} atoms\n{2 if fixed else 1} atom types\n\n{sides}\nAtoms\n\n"
+    atom, motion = "%d %d %r %r %r %r %r\n", "%d" + 6 * " %r" + "\n"
+    text += "".join(atom % (i, kind, 2 * radius, density, *sphere[:3]) for i, (kind, sphere) in numbered)
+    if len(spheres[0]) > 3:
+        text += "\nVelocities\n\n"
+        text += "".join(motion % (i, *(sphere[3:] or 6 * [0.0])) for i, (_, sphere) in numbered)
+    path.write_text(text)
 
 
 class Bed:
@@ -75,15 +93,8 @@ class Bed:
 
     def write_lammps(self, sides):
         (x, y), top = sides, max(sphere[2] for sphere in self.spheres) + 20 * self.radius
-        head = f"bed\n\n{len(self.spheres)} atoms\n1 atom types\n\n{-x} {x} xlo xhi\n{-y} {y} ylo yhi\n"
-        head += f"{-2 * self.radius} {top} zlo zhi\n\nAtoms\n\n"
-        atom = "%d 1 %r %r %r %r %r\n"
-        numbered = list(enumerate(self.spheres, 1))
-        text = head + "".join(atom % (i, 2 * self.radius, self.density, *sphere[:3]) for i, sphere in numbered)
-        if len(self.columns) > 3:
-            motion = "%d" + 6 * " %r" + "\n"
-            text += "\nVelocities\n\n" + "".join(motion % (i, *sphere[3:]) for i, sphere in numbered)
-        (self.folder / "bed.data").write_text(text)
+        box = [(-x, x), (-y, y), (-2 * self.radius, top)]
+        write_lammps(self.folder / "bed.data", self.spheres, self.radius, self.density, box)
 
     def lammps(self, law):
         """LAMMPS's input for it, and its variables."""
@@ -208,15 +219,6 @@ class Chute(Bed):
 
     def write_lammps(self, sides):
         """As others, with the frozen spheres as a second type."""
-        (x, y), moving = sides, self.spheres
-        top = max(sphere[2] for sphere in moving) + 5.0
-        atoms = [(1, sphere) for sphere in moving] + [(2, (*place, *[0.0] * 6)) for place in self.bottom]
-        head = f"chute\n\n{len(atoms)} atoms\n2 atom types\n\n{-x} {x} xlo xhi\n{-y} {y} ylo yhi\n-1.0 {top} zlo zhi\n\n"
-        wrapped = lambda place, side: (place + side) % (2 * side) - side
-        lines = ["Atoms\n"]
-        for number, (kind, sphere) in enumerate(atoms, 1):
-            place = wrapped(sphere[0], x), wrapped(sphere[1], y), sphere[2]
-            lines.append(f"{number} {kind} 1.0 {self.density} " + " ".join(map(repr, place)))
-        lines += ["\nVelocities\n"]
-        lines += [f"{number} " + " ".join(map(repr, sphere[3:])) for number, (_, sphere) in enumerate(atoms, 1)]
-        (self.folder / "bed.data").write_text(head + "\n".join(lines) + "\n")
+        (x, y), top = sides, max(sphere[2] for sphere in self.spheres) + 5.0
+        box = [(-x, x), (-y, y), (-1.0, top)]
+        write_lammps(self.folder / "bed.data", self.spheres, self.radius, self.density, box, self.bottom)
