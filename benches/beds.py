@@ -196,13 +196,13 @@ class Chute(Bed):
         text = self.replaced(text, {"z_max = 90.0": f"z_max = {height!r}", "x = 40.0": f"x = {nx}.0", "y = 20.0": f"y = {ny}.0"})
         self.text = self.replaced(text, {"tilt = 0.0": f"tilt = {math.radians(self.slope)!r}"})
         # They fall, and then flow.
-        record = self.run(phase, "settled", self.replaced(text, self.times(40.0)))
+        record = self.run(phase, "settled", self.replaced(text, self.times(20.0)))
         self.take(phase, record, [side / 2 for side in self.frozen])
-        flowing = self.from_file(self.replaced(self.text, self.times(40.0)))
+        flowing = self.from_file(self.replaced(self.text, self.times(20.0)))
         self.take(phase, self.run(phase, "flowing", flowing), [side / 2 for side in self.frozen])
 
     @staticmethod
-    def times(duration, dt=4e-4):
+    def times(duration, dt=2e-4):
         return {"dt = 1e-4": f"dt = {dt!r}", "duration = 1.0": f"duration = {duration!r}", "frame_interval = 1.0": f"frame_interval = {duration!r}"}
 
     def run(self, phase, name, text):
