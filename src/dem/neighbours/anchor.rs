@@ -185,7 +185,10 @@ impl Allowance {
     /// coordinate is not a number.
     #[inline(always)]
     pub fn holds(&self, position: Vector, reference: Reference) -> bool {
-        self.hold(&[position], &[reference])
+        match self.domain.is_open() {
+            true => self.holds_in::<OpenSpace>(position, reference),
+            false => self.holds_in::<Domain>(position, reference),
+        }
     }
 
     #[inline(always)]
