@@ -97,7 +97,7 @@ impl SphereProperties {
         inertia: 0.0,
     };
 
-    /// The properties of all spheres, if they are alike to the laws: of those that move.
+    /// The properties of the spheres that move, if all spheres are alike to the laws.
     pub(super) fn of_all<N: NormalLaw, T: TangentialLaw>(particles: &Particles) -> Option<Self> {
         let Particles {
             fixed,

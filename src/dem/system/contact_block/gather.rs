@@ -142,8 +142,8 @@ impl<H: History> ContactBlock<H> {
         }
     }
 
-    /// Effective masses of pairs of spheres that are alike, but that some are fixed. Fixed spheres
-    /// come first in a pair, and pairs with them first in the list: most blocks have none.
+    /// Effective masses of pairs of spheres that differ only in whether they are fixed. Fixed
+    /// spheres come first in a pair, and their pairs come first in the list: most blocks have none.
     #[inline(always)]
     fn weigh_fixed<N: NormalLaw, T: TangentialLaw<History = H>>(
         &mut self,
